@@ -1,0 +1,11 @@
+// Which instruction sets the transforms are compiled for; include before hwy/highway.h.
+// On x86: the scalar baseline, SSSE3, AVX2 + FMA and AVX-512; NEON on ARM. SSE4 and AVX-512's
+// later extensions gain nothing here, and vectors of unknown length (SVE, RVV) cannot form the
+// fixed tiles that transposition needs.
+#pragma once
+
+#include <hwy/detect_targets.h>
+
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS \
+    (HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
