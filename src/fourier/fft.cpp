@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <string>
-#include <vector>
 
-#include "aureole/base/buffer.h"
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "aureole/fourier/sizes.h"
 #include "fourier/fft_kernels.h"
 #include "fourier/line_plan.h"
+#include "fourier/scratch.h"
 
 namespace aureole::fourier {
 namespace {
@@ -22,21 +21,6 @@ int checked_size(const char* name, int n) {
     }
     return n;
 }
-
-// One scratch line batch for every worker.
-class Scratch {
-  public:
-    explicit Scratch(std::size_t floats)
-        : stride_((floats + 15) / 16 * 16),
-          memory_(stride_ * static_cast<std::size_t>(max_workers())) {}
-    float* of(int worker) noexcept {
-        return memory_.data() + stride_ * static_cast<std::size_t>(worker);
-    }
-
-  private:
-    std::size_t stride_;
-    Buffer memory_;
-};
 
 std::size_t batches(std::size_t lines, int lanes) {
     return (lines + static_cast<std::size_t>(lanes) - 1) / static_cast<std::size_t>(lanes);

@@ -1,0 +1,253 @@
+#include "fourier/convolver_kernels.h"
+
+#include <algorithm>
+
+#include "fourier/simd.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fourier/convolver_kernels.cpp"
+#include <hwy/foreach_target.h>
+// Must come after foreach_target.h.
+#include "fourier/line_transform-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace aureole::fourier::HWY_NAMESPACE {
+namespace {
+
+float* element(float* scratch, int index) {
+    return scratch + static_cast<std::size_t>(index) * kElement;
+}
+
+// Columns left of x0 + 2 V that exist.
+int columns_at(const ConstImageView& image, int x0) {
+    return std::min(2 * kLanes, image.width - x0);
+}
+
+// Any strides, any number of columns: one sample at a time.
+void gather_row(const ConstImageView& in, int x0, int y, int channel, float* to) {
+    const float* from = in.data + in.offset(x0, y, channel);
+    const int count = columns_at(in, x0);
+    for (int l = 0; l < 2 * kLanes; ++l) to[l] = l < count ? from[l * in.pixel_stride] : 0.0F;
+}
+
+void scatter_row(const ImageView& out, int x0, int y, int channel, const float* from) {
+    float* to = &out.at(x0, y, channel);
+    const int count = columns_at(out, x0);
+    for (int l = 0; l < count; ++l) to[l * out.pixel_stride] = from[l];
+}
+
+// Row y of all channels, 2 V columns: the first V become the real parts, the next V the imaginary
+// parts of element `row` of each channel's line batch.
+void load_row(const ConstImageView& in, const float* weights, int x0, int y, int row,
+              std::size_t channel_floats, float* lines) {
+    const D d;
+    const bool whole = columns_at(in, x0) == 2 * kLanes;
+    if (whole && in.channels == 3 && in.pixel_stride == 3 && in.channel_stride == 1) {
+        const float* from = in.data + in.offset(x0, y, 0);
+        for (int half = 0; half < 2; ++half, from += 3 * kLanes) {
+            Vec r;
+            Vec g;
+            Vec b;
+            hn::LoadInterleaved3(d, from, r, g, b);
+            float* to = element(lines, row) + half * kLanes;
+            hn::Store(r, d, to);
+            hn::Store(g, d, to + channel_floats);
+            hn::Store(b, d, to + 2 * channel_floats);
+        }
+    } else {
+        for (int c = 0; c < in.channels; ++c, lines += channel_floats) {
+            float* to = element(lines, row);
+            if (whole && in.pixel_stride == 1) {
+                const float* from = in.data + in.offset(x0, y, c);
+                hn::Store(hn::LoadU(d, from), d, to);
+                hn::Store(hn::LoadU(d, from + kLanes), d, to + kLanes);
+            } else {
+                gather_row(in, x0, y, c, to);
+            }
+        }
+        lines -= channel_floats * static_cast<std::size_t>(in.channels);
+    }
+    if (weights == nullptr) return;
+    const float* w = weights + static_cast<std::ptrdiff_t>(y) * in.width + x0;
+    const int count = columns_at(in, x0);
+    for (int c = 0; c < in.channels; ++c) {
+        float* to = element(lines, row) + channel_floats * static_cast<std::size_t>(c);
+        for (int l = 0; l < count; ++l) to[l] *= w[l];
+    }
+}
+
+void store_row(const ImageView& out, const float* weights, int x0, int y, int row,
+               std::size_t channel_floats, float* lines) {
+    const D d;
+    const int count = columns_at(out, x0);
+    if (weights != nullptr) {
+        const float* w = weights + static_cast<std::ptrdiff_t>(y) * out.width + x0;
+        for (int c = 0; c < out.channels; ++c) {
+            float* to = element(lines, row) + channel_floats * static_cast<std::size_t>(c);
+            for (int l = 0; l < count; ++l) to[l] /= w[l];
+        }
+    }
+    const bool whole = count == 2 * kLanes;
+    if (whole && out.channels == 3 && out.pixel_stride == 3 && out.channel_stride == 1) {
+        float* to = &out.at(x0, y, 0);
+        for (int half = 0; half < 2; ++half, to += 3 * kLanes) {
+            const float* from = element(lines, row) + half * kLanes;
+            hn::StoreInterleaved3(hn::Load(d, from), hn::Load(d, from + channel_floats),
+                                  hn::Load(d, from + 2 * channel_floats), d, to);
+        }
+        return;
+    }
+    for (int c = 0; c < out.channels; ++c, lines += channel_floats) {
+        const float* from = element(lines, row);
+        if (whole && out.pixel_stride == 1) {
+            float* to = &out.at(x0, y, c);
+            hn::StoreU(hn::Load(d, from), d, to);
+            hn::StoreU(hn::Load(d, from + kLanes), d, to + kLanes);
+        } else {
+            scatter_row(out, x0, y, c, from);
+        }
+    }
+}
+
+float* slab_of(const ColumnPass& pass, int channel, int group) {
+    const std::size_t index =
+        static_cast<std::size_t>(channel) * static_cast<std::size_t>(pass.slabs_per_channel) +
+        static_cast<std::size_t>(group);
+    return pass.slabs + index * pass.slab_floats;
+}
+
+// Separates the spectra of the two real columns in each line, Z = A + i B:
+//   2 A(k) = Z(k) + conj Z(N - k),   2 B(k) = -i (Z(k) - conj Z(N - k)),
+// and turns V frequencies x 2 V columns into slab elements. The factors 2 are undone by the scale
+// of the kernel's spectrum.
+void split_into_slabs(const ColumnPass& pass, int channel, int x0, float* spectrum) {
+    const int n = pass.plan->length;
+    const int* position = pass.plan->position.data();
+    for (int g = 0; g < pass.slabs_per_channel; ++g) {
+        Vec a_re[kLanes];
+        Vec a_im[kLanes];
+        Vec b_re[kLanes];
+        Vec b_im[kLanes];
+        for (int l = 0; l < kLanes; ++l) {
+            const int k = g * kLanes + l;
+            if (k > n / 2) {
+                a_re[l] = a_im[l] = b_re[l] = b_im[l] = hn::Zero(D());
+                continue;
+            }
+            const Complex z = load(element(spectrum, position[k]));
+            const Complex mirror = load(element(spectrum, position[k == 0 ? 0 : n - k]));
+            a_re[l] = hn::Add(z.re, mirror.re);
+            a_im[l] = hn::Sub(z.im, mirror.im);
+            b_re[l] = hn::Add(z.im, mirror.im);
+            b_im[l] = hn::Sub(mirror.re, z.re);
+        }
+        transpose(a_re);
+        transpose(a_im);
+        transpose(b_re);
+        transpose(b_im);
+        float* slab = element(slab_of(pass, channel, g), x0);
+        for (int l = 0; l < kLanes; ++l, slab += kElement) {
+            store({a_re[l], a_im[l]}, slab);
+            store({b_re[l], b_im[l]}, slab + kLanes * kElement);
+        }
+    }
+}
+
+// The inverse: Z(k) = A(k) + i B(k) and Z(N - k) = conj A(k) + i conj B(k).
+void merge_from_slabs(const ColumnPass& pass, int channel, int x0, float* spectrum) {
+    const int n = pass.plan->length;
+    const int* position = pass.plan->position.data();
+    for (int g = 0; g < pass.slabs_per_channel; ++g) {
+        Vec a_re[kLanes];
+        Vec a_im[kLanes];
+        Vec b_re[kLanes];
+        Vec b_im[kLanes];
+        const float* slab = element(slab_of(pass, channel, g), x0);
+        for (int l = 0; l < kLanes; ++l, slab += kElement) {
+            const Complex a = load(slab);
+            const Complex b = load(slab + kLanes * kElement);
+            a_re[l] = a.re;
+            a_im[l] = a.im;
+            b_re[l] = b.re;
+            b_im[l] = b.im;
+        }
+        transpose(a_re);
+        transpose(a_im);
+        transpose(b_re);
+        transpose(b_im);
+        for (int l = 0; l < kLanes; ++l) {
+            const int k = g * kLanes + l;
+            if (k > n / 2) break;
+            store({hn::Add(a_re[l], b_im[l]), hn::Sub(b_re[l], a_im[l])},
+                  element(spectrum, position[k == 0 ? 0 : n - k]));
+            store({hn::Sub(a_re[l], b_im[l]), hn::Add(a_im[l], b_re[l])},
+                  element(spectrum, position[k]));
+        }
+    }
+}
+
+void columns_in(const ColumnPass& pass, const ConstImageView& in, int batch, float* scratch) {
+    const int n = pass.plan->length;
+    const int x0 = batch * 2 * kLanes;
+    float* spectrum = scratch;
+    float* lines = element(scratch, n);
+    const bool cyclic = pass.first_row != 0;
+    const int valid = cyclic ? n : in.height;
+    const std::size_t channel_floats = static_cast<std::size_t>(valid) * kElement;
+    if (cyclic) {
+        std::fill(lines, lines + channel_floats * static_cast<std::size_t>(in.channels), 0.0F);
+    }
+    for (int y = 0; y < in.height; ++y) {
+        const int row = cyclic ? (pass.first_row + y) % n : y;
+        load_row(in, pass.weights, x0, y, row, channel_floats, lines);
+    }
+    for (int c = 0; c < in.channels; ++c, lines += channel_floats) {
+        forward_line(*pass.plan, lines, valid, spectrum);
+        split_into_slabs(pass, c, x0, spectrum);
+    }
+}
+
+void columns_out(const ColumnPass& pass, const ImageView& out, int batch, float* scratch) {
+    const int x0 = batch * 2 * kLanes;
+    float* spectrum = scratch;
+    float* lines = element(scratch, pass.plan->length);
+    const std::size_t channel_floats = static_cast<std::size_t>(out.height) * kElement;
+    for (int c = 0; c < out.channels; ++c) {
+        merge_from_slabs(pass, c, x0, spectrum);
+        inverse_line(*pass.plan, spectrum, lines + channel_floats * static_cast<std::size_t>(c),
+                     out.height);
+    }
+    for (int y = 0; y < out.height; ++y) {
+        store_row(out, pass.weights, x0, y, y, channel_floats, lines);
+    }
+}
+
+void convolve_rows(const RowPass& pass, float* slab, const float* spectrum, float* scratch) {
+    convolve_line(*pass.plan, slab, slab, pass.width, spectrum, scratch);
+}
+
+void spectrum_rows(const RowPass& pass, int first_column, float scale_by, const float* slab,
+                   float* spectrum, float* scratch) {
+    const int n = pass.plan->length;
+    for (int x = 0; x < n; ++x) store(zero(), element(scratch, x));
+    for (int x = 0; x < pass.width; ++x, slab += kElement) {
+        store(scale(load(slab), scale_by), element(scratch, (first_column + x) % n));
+    }
+    forward_line(*pass.plan, scratch, n, spectrum);
+}
+
+}  // namespace
+
+ConvolverKernels make_convolver_kernels() {
+    return {kLanes, &columns_in, &columns_out, &convolve_rows, &spectrum_rows};
+}
+
+}  // namespace aureole::fourier::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace aureole::fourier {
+HWY_EXPORT(make_convolver_kernels);
+ConvolverKernels convolver_kernels() { return HWY_DYNAMIC_DISPATCH(make_convolver_kernels)(); }
+}  // namespace aureole::fourier
+#endif

@@ -1,0 +1,48 @@
+// The SIMD part of Convolver, compiled per instruction set.
+//
+// Slabs: the half-transformed picture. Slab g of a channel holds frequencies ky = g V .. g V + V-1
+// as the V lanes of its elements (2 V floats each), one element per picture column, so that a slab
+// is V whole rows ready for the row transform.
+#pragma once
+
+#include <cstddef>
+
+#include "aureole/image/image.h"
+#include "fourier/line_plan.h"
+
+namespace aureole::fourier {
+
+// The picture side of the column passes. Columns are transformed 2 V at a time: two real columns
+// packed into one complex line, V lines at once.
+struct ColumnPass {
+    const LinePlan* plan;  // down the columns
+    int first_row;         // row 0 of the picture is put at this row of the transform, cyclically
+    const float* weights;  // width * height, or null
+    float* slabs;
+    std::size_t slab_floats;  // one slab, padding included
+    int slabs_per_channel;
+};
+
+// The row passes on one slab.
+struct RowPass {
+    const LinePlan* plan;  // along the rows
+    int width;             // valid elements of a slab
+};
+
+struct ConvolverKernels {
+    int lanes;
+    // Picture columns [2 V batch, 2 V (batch + 1)) of every channel into the slabs.
+    // Scratch: (channels + 1) * 2 V * plan length floats.
+    void (*columns_in)(const ColumnPass& pass, const ConstImageView& in, int batch, float* scratch);
+    void (*columns_out)(const ColumnPass& pass, const ImageView& out, int batch, float* scratch);
+    // Convolves a slab with the kernel's spectrum, in place. Scratch: 2 V * plan length floats.
+    void (*convolve_rows)(const RowPass& pass, float* slab, const float* spectrum, float* scratch);
+    // The kernel's spectrum from its slab: column x of the slab is put at column first + x of the
+    // transform, cyclically. `spectrum`: 2 V * plan length floats.
+    void (*spectrum_rows)(const RowPass& pass, int first_column, float scale, const float* slab,
+                          float* spectrum, float* scratch);
+};
+
+ConvolverKernels convolver_kernels();
+
+}  // namespace aureole::fourier
