@@ -89,35 +89,45 @@ struct Convolver::Impl {
         return spectrum.data() + slab * element() * static_cast<std::size_t>(across.length);
     }
 
-    // One channel at a time, to need little memory beside the spectrum.
+    // Transforms the kernel in the memory of its spectrum.
     void prepare(const ConstImageView& kernel) {
         // Column spectra of kernel and picture are both kept doubled; rows and columns unscaled.
         const float scale =
             0.25F / (static_cast<float>(across.length) * static_cast<float>(down.length));
-        const std::size_t floats = slab_floats(kernel.width);
-        Buffer work(floats * slabs(1));
-        const ColumnPass columns{&down,   (down.length - reach_y.before) % down.length,
-                                 nullptr, work.data(),
-                                 floats,  slabs_per_channel};
-        const RowPass rows{&across, kernel.width};
+        const int first_row = (down.length - reach_y.before) % down.length;
         const int first_column = (across.length - reach_x.before) % across.length;
+        const std::size_t floats = element() * static_cast<std::size_t>(across.length);
+        const RowPass rows{&across, kernel.width};
         for (int c = 0; c < kernel_channels; ++c) {
             const ConstImageView plane = kernel.channel_range(c, 1);
+            const ColumnPass columns{&down,
+                                     first_row,
+                                     kernel.width,
+                                     nullptr,
+                                     spectrum.data() + slabs(c) * floats,
+                                     floats,
+                                     slabs_per_channel};
             parallel_for(batches(kernel.width, 2 * simd.lanes), [&](std::size_t batch, int worker) {
                 simd.columns_in(columns, plane, static_cast<int>(batch), scratch.of(worker));
             });
             parallel_for(slabs(1), [&](std::size_t g, int worker) {
-                simd.spectrum_rows(rows, first_column, scale, work.data() + g * floats,
-                                   spectrum_of(slabs(c) + g), scratch.of(worker));
+                simd.spectrum_rows(rows, first_column, scale, columns.slabs + g * floats,
+                                   scratch.of(worker));
             });
         }
     }
 
     void run(const ConstImageView& in, const ImageView& out, const float* weights) noexcept {
         const std::size_t floats = slab_floats(width);
-        const ColumnPass columns{&down, 0, weights, slab_memory.data(), floats, slabs_per_channel};
-        const RowPass rows{&across, width};
         const std::size_t column_batches = batches(width, 2 * simd.lanes);
+        const ColumnPass columns{&down,
+                                 0,
+                                 static_cast<int>(column_batches) * 2 * simd.lanes,
+                                 weights,
+                                 slab_memory.data(),
+                                 floats,
+                                 slabs_per_channel};
+        const RowPass rows{&across, width};
         parallel_for(column_batches, [&](std::size_t batch, int worker) {
             simd.columns_in(columns, in, static_cast<int>(batch), scratch.of(worker));
         });

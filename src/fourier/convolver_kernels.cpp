@@ -147,8 +147,8 @@ void split_into_slabs(const ColumnPass& pass, int channel, int x0, float* spectr
         transpose(b_im);
         float* slab = element(slab_of(pass, channel, g), x0);
         for (int l = 0; l < kLanes; ++l, slab += kElement) {
-            store({a_re[l], a_im[l]}, slab);
-            store({b_re[l], b_im[l]}, slab + kLanes * kElement);
+            if (x0 + l < pass.columns) store({a_re[l], a_im[l]}, slab);
+            if (x0 + kLanes + l < pass.columns) store({b_re[l], b_im[l]}, slab + kLanes * kElement);
         }
     }
 }
@@ -226,14 +226,14 @@ void convolve_rows(const RowPass& pass, float* slab, const float* spectrum, floa
     convolve_line(*pass.plan, slab, slab, pass.width, spectrum, scratch);
 }
 
-void spectrum_rows(const RowPass& pass, int first_column, float scale_by, const float* slab,
-                   float* spectrum, float* scratch) {
+void spectrum_rows(const RowPass& pass, int first_column, float scale_by, float* slab,
+                   float* scratch) {
     const int n = pass.plan->length;
     for (int x = 0; x < n; ++x) store(zero(), element(scratch, x));
-    for (int x = 0; x < pass.width; ++x, slab += kElement) {
-        store(scale(load(slab), scale_by), element(scratch, (first_column + x) % n));
+    for (int x = 0; x < pass.width; ++x) {
+        store(scale(load(element(slab, x)), scale_by), element(scratch, (first_column + x) % n));
     }
-    forward_line(*pass.plan, scratch, n, spectrum);
+    forward_line(*pass.plan, scratch, n, slab);
 }
 
 }  // namespace

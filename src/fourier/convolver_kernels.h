@@ -17,6 +17,7 @@ namespace aureole::fourier {
 struct ColumnPass {
     const LinePlan* plan;  // down the columns
     int first_row;         // row 0 of the picture is put at this row of the transform, cyclically
+    int columns;           // of a slab that exist; columns_in() stores no others
     const float* weights;  // width * height, or null
     float* slabs;
     std::size_t slab_floats;  // one slab, padding included
@@ -37,10 +38,10 @@ struct ConvolverKernels {
     void (*columns_out)(const ColumnPass& pass, const ImageView& out, int batch, float* scratch);
     // Convolves a slab with the kernel's spectrum, in place. Scratch: 2 V * plan length floats.
     void (*convolve_rows)(const RowPass& pass, float* slab, const float* spectrum, float* scratch);
-    // The kernel's spectrum from its slab: column x of the slab is put at column first + x of the
-    // transform, cyclically. `spectrum`: 2 V * plan length floats.
-    void (*spectrum_rows)(const RowPass& pass, int first_column, float scale, const float* slab,
-                          float* spectrum, float* scratch);
+    // Turns a slab of the kernel into its spectrum, in place: column x of the slab is put at column
+    // first + x of the transform, cyclically. `slab`: 2 V * plan length floats.
+    void (*spectrum_rows)(const RowPass& pass, int first_column, float scale, float* slab,
+                          float* scratch);
 };
 
 ConvolverKernels convolver_kernels();

@@ -27,8 +27,8 @@ struct LinePlan {
     std::vector<int> position;     // where frequency k is stored
 };
 
-// The cheapest length >= n, by the number of passes over memory and the cost of their
-// butterflies, among the 7-smooth lengths up to a few percent above n.
+// The cheapest length >= n for one side of a two-dimensional transform, by the operations of its
+// passes, among the 7-smooth lengths up to a few percent above n.
 int best_length(int n);
 
 }  // namespace aureole::fourier

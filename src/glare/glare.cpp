@@ -1,0 +1,195 @@
+#include "aureole/glare/glare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aureole/base/error.h"
+#include "aureole/base/parallel.h"
+#include "aureole/color/rgb.h"
+#include "aureole/fourier/convolver.h"
+#include "aureole/sources/threshold.h"
+
+namespace aureole::glare {
+namespace {
+
+void check(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options) {
+    if (channels != 1 && channels != 3) {
+        throw InvalidArgument("channels", std::to_string(channels), "must be 3 (RGB) or 1 (grey)");
+    }
+    if (psf.kernel.channels() != 3) {
+        throw InvalidArgument("channels of the PSF", std::to_string(psf.kernel.channels()),
+                              "must be 3");
+    }
+    if (!(options.threshold >= 0)) {
+        throw InvalidArgument("threshold", std::to_string(options.threshold), "must be >= 0");
+    }
+    if (!(options.gain >= 0)) {
+        throw InvalidArgument("gain", std::to_string(options.gain), "must be >= 0");
+    }
+    if (psf.grid.projection != view.projection ||
+        std::abs(psf.grid.pitch_deg / view.pitch_deg - 1) > 1e-3) {
+        throw InvalidArgument("pitch of the PSF (deg)", std::to_string(psf.grid.pitch_deg),
+                              "must be that of the picture, " + std::to_string(view.pitch_deg) +
+                                  ", in the same projection");
+    }
+}
+
+// The kernel that a grey picture sees.
+Image luminance_kernel(const Image& kernel) {
+    Image grey(kernel.width(), kernel.height(), 1);
+    const auto& w = color::kLuminanceWeights;
+    parallel_for(static_cast<std::size_t>(kernel.height()), [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
+        for (int x = 0; x < kernel.width(); ++x) {
+            grey.at(x, y) = static_cast<float>(
+                w[0] * kernel.at(x, y, 0) + w[1] * kernel.at(x, y, 1) + w[2] * kernel.at(x, y, 2));
+        }
+    });
+    return grey;
+}
+
+}  // namespace
+
+Method method_from_name(std::string_view name) {
+    if (name == "fft") return Method::kFft;
+    if (name == "direct") return Method::kDirect;
+    throw InvalidArgument("method", std::string(name), "must be fft or direct");
+}
+
+struct Glare::Impl {
+    Impl(const View& v, int c, const wave::Psf& psf, const GlareOptions& o)
+        : view(v), channels(c), options(o) {
+        Image grey;
+        if (channels == 1) grey = luminance_kernel(psf.kernel);
+        const Image& kernel = channels == 1 ? grey : psf.kernel;
+        if (options.method == Method::kFft) {
+            convolver.emplace(view.width, view.height, channels, kernel);
+        } else {
+            direct_kernel = kernel;
+        }
+        share = share_inside(view.width, view.height, kernel);
+        if (view.projection == Projection::kPerspective) weights = relative_solid_angles(view);
+        if (selective()) light = Image(view.width, view.height, channels);
+        if (selective() || options.method == Method::kDirect) {
+            spread = Image(view.width, view.height, channels);
+        }
+    }
+
+    // Only part of the light makes glare, or its glare is scaled.
+    bool selective() const { return options.threshold > 0 || options.gain != 1 || options.matte; }
+
+    float light_of(float value, const float* matte, std::size_t pixel) const {
+        const float light = sources::ramp(value, options.threshold);
+        return matte == nullptr ? light : light * matte[pixel];
+    }
+
+    const float* weight_plane() const { return weights.empty() ? nullptr : weights.plane(0); }
+
+    void convolve(const ConstImageView& in, const ImageView& out) noexcept {
+        if (convolver) {
+            convolver->run(in, out, weight_plane());
+            return;
+        }
+        fourier::convolve_directly(in, direct_kernel, spread, weight_plane());
+        for_each_row([&](int y, int c) {
+            for (int x = 0; x < view.width; ++x) out.at(x, y, c) = spread.at(x, y, c);
+        });
+    }
+
+    template <class Body>
+    void for_each_row(const Body& body) const {
+        parallel_for(static_cast<std::size_t>(view.height), [&](std::size_t row, int) {
+            for (int c = 0; c < channels; ++c) body(static_cast<int>(row), c);
+        });
+    }
+
+    void apply(const ConstImageView& in, const ImageView& out, const float* matte) noexcept {
+        if (!selective()) {
+            convolve(in, out);
+            return;
+        }
+        for_each_row([&](int y, int c) {
+            const std::size_t first = row_start(y);
+            float* to = light.row(y, c);
+            for (int x = 0; x < view.width; ++x) {
+                to[x] = light_of(in.at(x, y, c), matte, first + static_cast<std::size_t>(x));
+            }
+        });
+        convolve(light, spread);
+        for_each_row([&](int y, int c) {
+            for (int x = 0; x < view.width; ++x) {
+                const float change = spread.at(x, y, c) - light.at(x, y, c);
+                out.at(x, y, c) = in.at(x, y, c) + options.gain * change;
+            }
+        });
+    }
+
+    std::size_t row_start(int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
+    }
+
+    Energy energy(const ConstImageView& in, const ConstImageView& out, const float* matte) const {
+        const double f = view.focal_length_px();
+        const bool perspective = !weights.empty();
+        std::vector<Energy> rows(static_cast<std::size_t>(view.height));
+        parallel_for(rows.size(), [&](std::size_t row, int) {
+            const int y = static_cast<int>(row);
+            Energy& sum = rows[row];
+            for (int c = 0; c < channels; ++c) {
+                for (int x = 0; x < view.width; ++x) {
+                    const std::size_t pixel = row_start(y) + static_cast<std::size_t>(x);
+                    const double weight = perspective ? weights.plane(0)[pixel] / (f * f) : 1.0;
+                    const float value = in.at(x, y, c);
+                    sum.in += weight * value;
+                    sum.out += weight * out.at(x, y, c);
+                    sum.off_picture += weight * options.gain * light_of(value, matte, pixel) *
+                                       (1.0 - share.at(x, y, c));
+                }
+            }
+        });
+        Energy total;
+        for (const Energy& row : rows) {
+            total.in += row.in;
+            total.out += row.out;
+            total.off_picture += row.off_picture;
+        }
+        return total;
+    }
+
+    View view;
+    int channels;
+    GlareOptions options;
+    std::optional<fourier::Convolver> convolver;
+    Image direct_kernel;
+    Image share;    // inside the picture, per source pixel and kernel channel
+    Image weights;  // relative solid angles, perspective only
+    Image light;    // what makes glare, if not everything does
+    Image spread;   // and what becomes of it
+};
+
+Glare::Glare(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options) {
+    check(view, channels, psf, options);
+    impl_ = std::make_unique<Impl>(view, channels, psf, options);
+}
+Glare::~Glare() = default;
+Glare::Glare(Glare&&) noexcept = default;
+Glare& Glare::operator=(Glare&&) noexcept = default;
+
+void Glare::apply(const ConstImageView& in, const ImageView& out, const float* matte) noexcept {
+    impl_->apply(in, out, matte);
+}
+Energy Glare::energy(const ConstImageView& in, const ConstImageView& out,
+                     const float* matte) const {
+    return impl_->energy(in, out, matte);
+}
+int Glare::padded_width() const noexcept {
+    return impl_->convolver ? impl_->convolver->padded_width() : impl_->view.width;
+}
+int Glare::padded_height() const noexcept {
+    return impl_->convolver ? impl_->convolver->padded_height() : impl_->view.height;
+}
+
+}  // namespace aureole::glare
