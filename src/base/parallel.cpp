@@ -11,7 +11,39 @@
 
 #include "aureole/base/error.h"
 
+#if defined(AUREOLE_THREAD_SANITIZER)
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
 namespace aureole {
+namespace {
+
+// libtbb is not instrumented, so the thread sanitizer does not see its threads hand work to each
+// other. This file is therefore not instrumented either (CMakeLists.txt), and says itself what it
+// promises: what precedes a loop happens before its bodies, these before what follows the loop.
+// Between the bodies nothing is promised, so a race there is found.
+struct Moment {
+#if defined(AUREOLE_THREAD_SANITIZER)
+    void announce() { __tsan_release(this); }
+    void observe() { __tsan_acquire(this); }
+#else
+    void announce() {}
+    void observe() {}
+#endif
+};
+
+// At the end of the scope, also when an exception leaves it.
+struct AnnounceAtExit {
+    Moment& moment;
+    ~AnnounceAtExit() { moment.announce(); }
+};
+struct ObserveAtExit {
+    Moment& moment;
+    ~ObserveAtExit() { moment.observe(); }
+};
+
+}  // namespace
 
 struct ThreadLimit::Impl {
     tbb::global_control control;
@@ -38,9 +70,15 @@ int thread_count() noexcept {
 }
 
 void detail::parallel_for(std::size_t count, LoopBody body, void* context) {
+    Moment begin;
+    Moment end;
+    const ObserveAtExit after{end};
+    begin.announce();
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, 1),
-        [=](const tbb::blocked_range<std::size_t>& range) {
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            begin.observe();
+            const AnnounceAtExit body_done{end};
             const int worker = std::max(0, tbb::this_task_arena::current_thread_index());
             for (std::size_t i = range.begin(); i != range.end(); ++i) body(context, i, worker);
         },

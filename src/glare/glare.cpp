@@ -82,8 +82,8 @@ struct Glare::Impl {
     bool selective() const { return options.threshold > 0 || options.gain != 1 || options.matte; }
 
     float light_of(float value, const float* matte, std::size_t pixel) const {
-        const float light = sources::ramp(value, options.threshold);
-        return matte == nullptr ? light : light * matte[pixel];
+        const float above = sources::ramp(value, options.threshold);
+        return matte == nullptr ? above : above * matte[pixel];
     }
 
     const float* weight_plane() const { return weights.empty() ? nullptr : weights.plane(0); }

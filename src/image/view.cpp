@@ -17,17 +17,17 @@ View View::from_fov(int width, int height, double fov_deg, Projection projection
     const bool perspective = projection == Projection::kPerspective;
     const bool valid = perspective ? fov_deg > 0 && fov_deg < 180 : fov_deg > 0 && fov_deg <= 360;
     if (!valid) {
-        throw InvalidArgument("field of view (deg)", std::to_string(fov_deg),
-                              perspective ? "must be in (0, 180) for a perspective picture"
-                                          : "must be in (0, 360]");
+        throw InvalidArgument(
+            "field of view (deg)", std::to_string(fov_deg),
+            perspective ? "must be in (0, 180) for a perspective picture" : "must be in (0, 360]");
     }
     View view;
     view.width = width;
     view.height = height;
     view.projection = projection;
-    view.pitch_deg =
-        perspective ? deg_from_rad(std::atan(2 * std::tan(rad_from_deg(fov_deg) / 2) / width))
-                    : fov_deg / width;
+    view.pitch_deg = perspective
+                         ? deg_from_rad(std::atan(2 * std::tan(rad_from_deg(fov_deg) / 2) / width))
+                         : fov_deg / width;
     view.axis_x = width / 2.0;
     view.axis_y = height / 2.0;
     return view;
@@ -50,6 +50,24 @@ double View::pixel_solid_angle_sr(int x, int y) const {
     const double v = (y + 0.5 - axis_y) / f;
     const double secant2 = 1 + u * u + v * v;
     return 1 / (f * f * secant2 * std::sqrt(secant2));
+}
+
+double View::horizontal_field_deg() const {
+    return angle_from_axis_deg(0, axis_y) + angle_from_axis_deg(width, axis_y);
+}
+
+double View::solid_angle_sr() const {
+    const double f = focal_length_px();
+    if (projection == Projection::kConstantPitch) return width / f * (height / f);
+    // The rectangle from the axis to (x, y), signed.
+    const auto corner = [f](double x, double y) {
+        return std::atan(x * y / (f * std::sqrt(f * f + x * x + y * y)));
+    };
+    const double left = -axis_x;
+    const double right = width - axis_x;
+    const double top = -axis_y;
+    const double bottom = height - axis_y;
+    return corner(right, bottom) - corner(left, bottom) - corner(right, top) + corner(left, top);
 }
 
 Image relative_solid_angles(const View& view) {

@@ -42,7 +42,9 @@ struct SpectralRange {
 // RGB component sum to 1, so that a source with the illuminant's spectrum stays neutral whatever
 // diffraction does to its wavelengths ("white-preserving"). Weights may be negative: spectral
 // colours lie outside the sRGB gamut.
-// Throws InvalidArgument unless count >= 1 and 0 < low < high.
+// Each weight is an integral over its band, not a sample.
+// Throws InvalidArgument unless count >= 1, 0 < low < high and the range holds light of every RGB
+// component.
 std::vector<SpectralBand> sample_spectrum(
     int count, WavelengthSpacing spacing = WavelengthSpacing::kLogarithmic,
     Illuminant illuminant = Illuminant::kD65, SpectralRange range = {});

@@ -35,6 +35,10 @@ struct View {
     // Solid angle of pixel (x, y), sr. kPerspective: cos^3(theta) / f^2, the midpoint value of
     // the integral over the pixel (relative error below 1 / (4 f^2)). kConstantPitch: pitch^2.
     double pixel_solid_angle_sr(int x, int y) const;
+    // Angle that the full width subtends, deg: along the row through the axis.
+    double horizontal_field_deg() const;
+    // Solid angle of the whole picture, sr: the sum of its pixels' in closed form.
+    double solid_angle_sr() const;
 };
 
 // One plane of pixel solid angles relative to that of the pixel on the axis; 1 everywhere for

@@ -26,6 +26,10 @@ struct ApertureGrid {
     bool operator==(const ApertureGrid&) const = default;
 };
 
+// Throws InvalidArgument unless samples is even, 7-smooth and at least 2, and the extent is
+// positive and finite. Masks and fields check their grid by it.
+void check(const ApertureGrid& grid);
+
 // A real plane over an aperture: coverage or transmission (0 to 1), or a count of layers.
 // Row-major, index j * samples + i.
 struct Mask {
@@ -45,5 +49,12 @@ struct Field {
     Buffer re;
     Buffer im;
 };
+
+// Light of amplitude `mask` and phase 0.
+Field field_from(const Mask& mask);
+// field *= mask. Throws InvalidArgument unless both have the same grid.
+void multiply(Field& field, const Mask& mask);
+// Area of the mask in mm^2: the sum of its values times the area of a sample.
+double area_mm2(const Mask& mask);
 
 }  // namespace aureole::wave

@@ -5,6 +5,8 @@
 // and d Omega = d alpha d beta / cos(theta).
 #pragma once
 
+#include <vector>
+
 #include "aureole/base/buffer.h"
 #include "aureole/fourier/fft.h"
 #include "aureole/wave/aperture.h"
@@ -23,10 +25,19 @@ struct Pattern {
     double intensity_per_sr(int k, int l, double wavelength_nm) const;
 };
 
-// |F{field}|^2 / (sum |field|^2 * N^2): Goodman, "Introduction to Fourier Optics", eq. 4-25 in
-// angles. The field is consumed: it holds the transform (in unshifted order) afterwards.
-// `fft` must have the size of the grid. Throws InvalidArgument if the field is zero everywhere
-// ("the mask has no opening").
+// Transforms the field in place (unshifted order: frequency 0 at index 0; relative to a transform
+// about the axis, sample (k, l) carries the sign (-1)^(k + l), which no intensity sees). Columns
+// that hold no light are not transformed. Returns sum |field|^2 * N^2 of the aperture, by which
+// |F|^2 is divided to make energy per sample.
+// `fft` must have the size of the grid. Throws InvalidArgument if it has not, or if the field is
+// zero everywhere ("the mask has no opening").
+double transform(Field& field, fourier::Fft2d& fft);
+
+// |F{field}|^2 in angles (Goodman, "Introduction to Fourier Optics", eq. 4-25), scaled to a sum
+// of 1. A sample of a field is the mean of the light over its square (that is how masks are
+// drawn), which dims the ends of the band; the known factors sinc^2(pi k / N) sinc^2(pi l / N) are
+// divided out. The field is consumed: it holds the transform afterwards. Throws as transform()
+// does.
 Pattern fraunhofer(Field& field, fourier::Fft2d& fft);
 
 // Multiplies the field by exp(i pi D r^2 / lambda): residual defocus of D dioptres (1/m).
@@ -42,7 +53,15 @@ void add_fresnel_term(Field& field, double distance_mm, double wavelength_nm);
 
 // Largest spacing (mm) that samples the quadratic phase of D dioptres without aliasing up to
 // radius r: lambda / (2 |D| r).
-double max_spacing_for_defocus_mm(double defocus_dioptres, double radius_mm,
-                                  double wavelength_nm);
+double max_spacing_for_defocus_mm(double defocus_dioptres, double radius_mm, double wavelength_nm);
+
+// ---- Rings: sets of samples at equal rounded distance from the axis, in samples ----
+
+// Ring r holds the samples with r - 1/2 < sqrt(k^2 + l^2) <= r + 1/2. Rings reach the corners:
+// there are round(N / sqrt(2)) + 1 of them.
+int ring_count(int samples);
+// Mean over each ring of a transform (unshifted order) of |F|^2, freed from the sample's box filter
+// as in fraunhofer().
+std::vector<double> ring_means(const Field& transform);
 
 }  // namespace aureole::wave

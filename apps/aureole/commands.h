@@ -1,0 +1,16 @@
+// The commands of the program. Each adds itself to the command line and returns what to run when
+// it was chosen; errors are exceptions.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace aureole::app {
+
+using Run = std::function<void()>;
+
+Run add_glare_command(CLI::App& app);
+Run add_psf_command(CLI::App& app);
+Run add_scene_command(CLI::App& app);
+
+}  // namespace aureole::app

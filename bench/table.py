@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Runs the benchmarks and prints the table of bars: every speed as a ratio measured in one run.
+
+usage: bench/table.py [BUILD_DIR] [--simd avx2|avx512|ssse3] [--rounds N]
+
+scipy is compared when it can be imported (it is not needed to build or run anything else).
+"""
+import argparse
+import importlib.util
+import json
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+KERNELS = ["513x513", "1025x1025", "1919x1079"]
+
+
+def medians(program, simd, rounds):
+    """Median milliseconds by name; rounds of all cases interleaved at random."""
+    command = [
+        str(program),
+        "--benchmark_format=json",
+        "--benchmark_enable_random_interleaving=true",
+        f"--benchmark_repetitions={rounds}",
+        "--benchmark_report_aggregates_only=true",
+    ]
+    if simd:
+        command.append(f"--simd={simd}")
+    run = subprocess.run(command, check=True, capture_output=True, text=True)
+    result = {}
+    for case in json.loads(run.stdout)["benchmarks"]:
+        if case.get("aggregate_name") == "median":
+            name = case["run_name"].replace("/real_time", "").split("/min_time")[0]
+            result[name] = case["real_time"]
+    return result
+
+
+def row(what, value, bar, detail=""):
+    """One line; `bar` is like '>= 3' or '<= 2'."""
+    sign, limit = bar.split()
+    met = value >= float(limit) if sign == ">=" else value <= float(limit)
+    print(f"{what:<58} {value:8.2f}   {bar:<8} {'met' if met else 'NOT MET':<8} {detail}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build", nargs="?", default=ROOT / "build" / "release")
+    parser.add_argument("--simd", default="avx2")
+    parser.add_argument("--rounds", type=int, default=9)
+    options = parser.parse_args()
+    programs = pathlib.Path(options.build) / "bin"
+
+    times = medians(programs / "convolution_bench", options.simd, options.rounds)
+    print(f"1920x1080 RGB, interleaved, kernel spectrum cached, 2 threads, {options.simd}")
+    print(f"{'measure':<58} {'figure':>8}   {'bar':<8}")
+    ms = "{:.1f} / {:.1f} ms".format
+    for kernel, bar in zip(KERNELS, ["3", "6", "7"]):
+        ours, theirs = times[f"aureole/{kernel}"], times[f"textbook/{kernel}"]
+        row(f"{kernel}: times faster than the textbook", theirs / ours, f">= {bar}",
+            ms(theirs, ours))
+        coloured = times[f"aureole_rgb_kernel/{kernel}"]
+        print(f"{'  the same with a coloured kernel':<58} {theirs / coloured:8.2f}"
+              f"{'':23}{ms(theirs, coloured)}")
+    if importlib.util.find_spec("scipy"):
+        for kernel, bar in zip(KERNELS, ["4", "6", "6.5"]):
+            script = [sys.executable, str(ROOT / "bench" / "scipy_convolution.py")]
+            run = subprocess.run(script + kernel.split("x"), check=True, capture_output=True,
+                                 text=True)
+            ours, theirs = times[f"aureole/{kernel}"], float(run.stdout)
+            row(f"{kernel}: times faster than scipy.fft", theirs / ours, f">= {bar}",
+                ms(theirs, ours))
+    else:
+        print("scipy is not installed: comparison left out")
+    ours, reference = times["default_glare/apply"], times["aureole/1919x1079"]
+    row("default glare, full reach: times the 1919x1079 case", ours / reference, "<= 2",
+        ms(ours, reference))
+    ours, theirs = times["aureole_fft/4096x4096"], times["fftw/4096x4096"]
+    print(f"{'4096x4096 complex: times faster than FFTW':<58} {theirs / ours:8.2f}"
+          f"{'':23}{ms(theirs, ours)}")
+
+    times = medians(programs / "eye_psf_bench", options.simd, max(3, options.rounds // 3))
+    fftw = times["fftw_4096"]
+    for bands, name in (("64", "64 bands"), ("0", "default bands")):
+        row(f"eye PSF 1025x1025, {name}: times one FFTW transform",
+            times[f"eye_psf/{bands}"] / fftw, "<= 6", ms(times[f"eye_psf/{bands}"], fftw))
+
+    for job, bar in (("convolution", "250"), ("eye-psf", "600")):
+        run = subprocess.run([programs / "peak_memory", job], check=True, capture_output=True,
+                             text=True)
+        row(f"peak memory (MB), {job}", float(run.stdout), f"<= {bar}")
+
+
+if __name__ == "__main__":
+    main()

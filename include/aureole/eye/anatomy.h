@@ -1,0 +1,107 @@
+// What an eye is made of: the parameters of one static eye.
+//
+// Defaults are an average adult. They are those with which the corona, the halo and the streaks
+// were calibrated against measured glare; lengths are in the plane of the entrance pupil.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "aureole/eye/scatter.h"
+#include "aureole/wave/aperture.h"
+
+namespace aureole::eye {
+
+// Discs of log-uniformly distributed radius, uniformly spread over a disc.
+struct Particles {
+    int count = 0;  // 0 to 200000
+    double min_radius_um = 0;
+    double max_radius_um = 0;  // >= min_radius_um
+};
+
+// The fibres of the lens, radially arranged; their grating makes the lenticular halo.
+struct Gratings {
+    int fibres = 1740;  // per turn, 1 to 10000. A period of 10.85 um at 3 mm, which puts the halo
+                        // at 3 deg for 568 nm. The thesis used 200: a halo at 0.3 deg
+    double phase_rad = 0.175;      // amplitude of the delay, 0 to 3
+    double inner_radius_mm = 1.8;  // the delay rises smoothly from 0 here ...
+    double full_radius_mm = 3.2;   // ... to its full value here
+    double jitter_fibres = 0.25;   // rms displacement of the fibres, in fibre spacings
+};
+
+// The lashes in front of the pupil, hanging from the upper lid.
+struct Lashes {
+    double width_um = 75;      // mean of the full width at the root, +- 25 %
+    double angle_sd_deg = 15;  // standard deviation of the direction about the vertical
+    double reach = 0.45;       // mean share of the pupil's height that a lash covers from above
+    double reach_sd = 0.25;    // its standard deviation
+    double curvature_per_mm = 0.03;  // standard deviation
+};
+
+struct Anatomy {
+    Particles lens_small = {2500, 1.5, 8};
+    Particles lens_large = {750, 10, 35};
+    Particles vitreous = {2500, 1.5, 8};
+    Particles cornea = {60, 10, 35};
+    double particle_disc_radius_mm = 4;  // where particles are found; 0.5 to 5
+    Gratings gratings;
+    Lashes lashes;
+    double pupil_irregularity = 0.004;  // rms scale of the harmonics of the pupil's edge, 0 to 0.1
+};
+
+// One eye, and what it is made to look like.
+struct Eye {
+    double pupil_diameter_mm = 5;  // 1 to 9; see pupil.h
+    double age_years = 30;         // 1 to 120
+    Pigmentation pigmentation = Pigmentation::kBrown;
+    ScatterModel scatter = ScatterModel::kCie;
+    double eyelid = 0;       // 0 open to 1 closed (refused: no opening)
+    int eyelashes = 7;       // 0 to 100
+    std::uint64_t seed = 1;  // another seed is another person
+    // Looks. 1 is physical; all of them conserve energy.
+    double corona_contrast = 1;  // exponent of the corona's texture, 0 (smooth) to 16
+    double halo = 1;             // scale of the halo's energy, 0 to 20
+    double streaks = 1;          // scale of the energy in the streaks, 0 to 20
+    Anatomy anatomy;
+};
+
+// Throws InvalidArgument that names the first value outside the ranges above.
+void check(const Eye& eye);
+
+// Named settings of corona_contrast, halo and streaks.
+enum class Look {
+    kPhysical,  // 1, 1, 1
+    kVivid,     // what people say they see. Contrast 4 in a picture 60 deg wide and 2.5 in one
+                // 20 deg wide, linear in the logarithm of the field between and constant outside
+                // (a pixel of a wide picture averages over more needles); halo 1, streaks 1.5
+};
+// The names used on the command line: physical, vivid. Throws InvalidArgument for any other.
+Look look_from_name(std::string_view name);
+void apply_look(Eye& eye, Look look, double horizontal_field_deg);
+
+// ---- The layers, drawn one by one. Each depends on the eye and its own random stream only, so
+// that changing one leaves the others as they are. ----
+
+// Amplitude transmission of the pupil, upper lid included: 1 inside, 0 outside.
+// Throws InvalidArgument if the lid leaves no opening.
+wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid);
+
+enum class ParticleLayer {
+    kLens,      // small and large; moves with the lens
+    kVitreous,  // moves with eye and head
+    kCornea,    // static
+};
+// Adds 1 wherever a particle of the layer lies (antialiased; overlapping particles add up).
+void add_particles(const Eye& eye, ParticleLayer layer, wave::Mask& coverage);
+
+// Multiplies the field by the delay of the lens fibres, as a phase.
+void multiply_gratings(const Eye& eye, wave::Field& field);
+// Empty if the raster resolves the fibres wherever they scatter (period >= 2 samples), else a
+// sentence that says where it does not.
+std::string grating_resolution_note(const Eye& eye, const wave::ApertureGrid& grid);
+
+// Share of each sample that lashes block. They move with the upper lid.
+wave::Mask draw_lashes(const Eye& eye, const wave::ApertureGrid& grid);
+
+}  // namespace aureole::eye

@@ -1,0 +1,218 @@
+#include "aureole/eye/eye_psf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "aureole/base/error.h"
+#include "aureole/base/parallel.h"
+#include "aureole/eye/scatter.h"
+#include "eye/components.h"
+#include "eye/corona_texture.h"
+#include "eye/kernel_checks.h"
+#include "eye/scatter_pixels.h"
+
+namespace aureole::eye {
+namespace {
+
+constexpr double kMostDiffractedShare = 0.5;
+
+double seconds() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(now).count();
+}
+
+// The central pixels of the scatter term, in the order of the patch.
+Image scatter_patch(const ScatterPixels& scatter, const wave::KernelGrid& patch) {
+    Image out(patch.width, patch.height, 1);
+    const int half_width = patch.width / 2;
+    const int half_height = patch.height / 2;
+    parallel_for(static_cast<std::size_t>(half_height) + 1, [&](std::size_t row, int) {
+        const int dy = static_cast<int>(row);
+        float* below = out.row(half_height + dy, 0) + half_width;
+        scatter.row(dy, half_width + 1, below);
+        for (int dx = 1; dx <= half_width; ++dx) below[-dx] = below[dx];
+        std::copy_n(below - half_width, patch.width, out.row(half_height - dy, 0));
+    });
+    return out;
+}
+
+// energy[c] S over the whole kernel; the four quadrants are mirror images.
+void fill_scatter(const ScatterPixels& scatter, const std::array<double, 3>& energy,
+                  Image& kernel) {
+    const int half_width = kernel.width() / 2;
+    const int half_height = kernel.height() / 2;
+    std::vector<std::vector<float>> quadrant_rows(static_cast<std::size_t>(max_workers()));
+    parallel_for(static_cast<std::size_t>(half_height) + 1, [&](std::size_t row, int worker) {
+        auto& quadrant = quadrant_rows[static_cast<std::size_t>(worker)];
+        quadrant.resize(static_cast<std::size_t>(half_width) + 1);
+        const int dy = static_cast<int>(row);
+        scatter.row(dy, half_width + 1, quadrant.data());
+        for (int c = 0; c < 3; ++c) {
+            const auto scale = static_cast<float>(energy[static_cast<std::size_t>(c)]);
+            float* below = kernel.row(half_height + dy, c) + half_width;
+            for (int dx = 0; dx <= half_width; ++dx) {
+                below[dx] = scale * quadrant[static_cast<std::size_t>(dx)];
+            }
+            for (int dx = 1; dx <= half_width; ++dx) below[-dx] = below[dx];
+            if (dy > 0) {
+                std::copy_n(below - half_width, kernel.width(), kernel.row(half_height - dy, c));
+            }
+        }
+    });
+}
+
+// Calls visit(kernel row segment, patch row, y, c) for every row of the patch.
+template <class Visit>
+void over_patch(Image& kernel, const wave::KernelGrid& patch, const Visit& visit) {
+    const int x0 = (kernel.width() - patch.width) / 2;
+    const int y0 = (kernel.height() - patch.height) / 2;
+    parallel_for(static_cast<std::size_t>(patch.height), [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
+        for (int c = 0; c < 3; ++c) visit(kernel.row(y0 + y, c) + x0, y, c);
+    });
+}
+
+void multiply_patch(Image& kernel, const wave::KernelGrid& patch, const Image& factor) {
+    over_patch(kernel, patch, [&](float* k, int y, int c) {
+        const float* f = factor.row(y, c);
+        for (int x = 0; x < patch.width; ++x) k[x] *= f[x];
+    });
+}
+
+void add_patch(Image& kernel, const wave::KernelGrid& patch, const Image& term,
+               const std::array<double, 3>& weight) {
+    over_patch(kernel, patch, [&](float* k, int y, int c) {
+        const float* t = term.row(y, c);
+        const auto w = static_cast<float>(weight[static_cast<std::size_t>(c)]);
+        for (int x = 0; x < patch.width; ++x) k[x] += w * t[x];
+    });
+}
+
+wave::Psf single_pattern(const wave::KernelGrid& grid, const wave::KernelGrid& patch,
+                         const Image& pattern) {
+    wave::Psf psf;
+    psf.grid = grid;
+    psf.kernel = Image(grid.width, grid.height, 3);
+    add_patch(psf.kernel, patch, pattern, {1, 1, 1});
+    psf.off_kernel_energy = energy_outside(pattern);
+    return psf;
+}
+
+}  // namespace
+
+double halo_weight(const Eye& eye) {
+    constexpr struct {
+        double pupil_mm;
+        double weight;
+    } kNodes[] = {{3, 0}, {5, 0.0005}, {6, 0.0030}, {7, 0.0062}};
+    const double pupil_mm = eye.pupil_diameter_mm;
+    if (pupil_mm <= kNodes[0].pupil_mm) return 0;
+    for (std::size_t i = 1; i < std::size(kNodes); ++i) {
+        if (pupil_mm > kNodes[i].pupil_mm) continue;
+        const double t =
+            (pupil_mm - kNodes[i - 1].pupil_mm) / (kNodes[i].pupil_mm - kNodes[i - 1].pupil_mm);
+        return eye.halo * (kNodes[i - 1].weight + t * (kNodes[i].weight - kNodes[i - 1].weight));
+    }
+    return eye.halo * kNodes[std::size(kNodes) - 1].weight;
+}
+
+wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOptions& options,
+                  Progress* progress, EyePsfTimings* timings) {
+    check(eye);
+    check_kernel(grid);
+    check_aperture(options.aperture);
+    Components components(eye, grid, options, progress, timings);
+    const wave::KernelGrid& patch = components.patch();
+    const bool scatters = eye.scatter != ScatterModel::kNone;
+
+    std::optional<Image> airy;
+    if (!scatters) airy = components.bloom();
+    double halo_share = halo_weight(eye);
+    std::optional<Image> halo;
+    if (halo_share > 0) halo = components.halo();
+    if (!halo) halo_share = 0;
+    const auto [corona, streaks, blocked_share] = components.corona_and_streaks(
+        scatters && eye.corona_contrast > 0, eye.streaks > 0 && eye.eyelashes > 0);
+    double streak_share = streaks ? blocked_share * eye.streaks : 0;
+    const double excess = (halo_share + streak_share) / kMostDiffractedShare;
+    if (excess > 1) {
+        halo_share /= excess;
+        streak_share /= excess;
+    }
+
+    const double start = seconds();
+    std::array<double, 3> rest = {1, 1, 1};  // 1 - c
+    const auto take = [&](const std::optional<Image>& pattern, double share) {
+        if (!pattern) return;
+        const auto sums = plane_sums(*pattern);
+        for (std::size_t c = 0; c < 3; ++c) rest[c] -= share * sums[c];
+    };
+    take(halo, halo_share);
+    take(streaks, streak_share);
+
+    wave::Psf psf;
+    psf.grid = grid;
+    psf.kernel = Image(grid.width, grid.height, 3);
+    if (scatters) {
+        const ScatterPixels scatter(
+            ScatterPsf(eye.scatter, eye.age_years, eye.pigmentation, eye.pupil_diameter_mm), grid);
+        fill_scatter(scatter, rest, psf.kernel);
+        if (corona) {
+            multiply_patch(
+                psf.kernel, patch,
+                corona_texture(*corona, scatter_patch(scatter, patch), eye.corona_contrast));
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            psf.off_kernel_energy[c] = rest[c] * scatter.off_kernel_energy();
+        }
+    } else {
+        add_patch(psf.kernel, patch, *airy, rest);
+        psf.off_kernel_energy = energy_outside(*airy);
+        for (std::size_t c = 0; c < 3; ++c) psf.off_kernel_energy[c] *= rest[c];
+    }
+    if (halo) add_patch(psf.kernel, patch, *halo, {halo_share, halo_share, halo_share});
+    if (streaks) add_patch(psf.kernel, patch, *streaks, {streak_share, streak_share, streak_share});
+    if (timings != nullptr) timings->scatter += seconds() - start;
+    if (progress != nullptr) progress->report("eye psf", 1);
+    return psf;
+}
+
+wave::Psf eye_component(Component component, const Eye& eye, const wave::KernelGrid& grid,
+                        const EyePsfOptions& options, Progress* progress) {
+    check(eye);
+    check_kernel(grid);
+    check_aperture(options.aperture);
+    if (component == Component::kCorona) {
+        Eye without = eye;
+        without.halo = 0;
+        without.streaks = 0;
+        return eye_psf(without, grid, options, progress);
+    }
+    Components components(eye, grid, options, progress, nullptr);
+    if (component == Component::kBloom) {
+        return single_pattern(grid, components.patch(), components.bloom());
+    }
+    if (component == Component::kHalo) {
+        const auto halo = components.halo();
+        if (!halo) {
+            throw InvalidArgument("pupil", fmt::format("{}", eye.pupil_diameter_mm),
+                                  "hides the fibres of the lens; the halo needs a wider one");
+        }
+        return single_pattern(grid, components.patch(), *halo);
+    }
+    const auto streaks = components.corona_and_streaks(false, true).streaks;
+    if (!streaks) {
+        throw InvalidArgument("eyelashes", fmt::format("{}", eye.eyelashes),
+                              "none lies before the pupil; streaks need at least one");
+    }
+    return single_pattern(grid, components.patch(), *streaks);
+}
+
+}  // namespace aureole::eye

@@ -1,0 +1,154 @@
+// How the lights of the street fall on surfaces and mirror in them.
+#include <cmath>
+
+#include "scene/builders.h"
+#include "scene/night_street.h"
+
+namespace aureole::scene::night {
+namespace {
+
+// Intensity towards `direction` (unit, from the light) relative to Light::intensity_cd.
+float lobe(const Light& light, Vec3 direction) {
+    switch (light.lobe) {
+        case Lobe::kLamp: {
+            // A bowl: a little wider than Lambert's law to light the road between two posts, some
+            // spill above the horizontal.
+            const float down = -direction.y;
+            return smoothstep(-0.25F, 0.55F, down) * (1.15F - 0.25F * down);
+        }
+        case Lobe::kHeadlamp: {
+            const float ahead = dot(direction, light.axis);
+            if (ahead <= 0.05F) return 0;
+            const float up = direction.y / ahead;
+            const float aside = direction.x / ahead;
+            const float spread = 1 / (1 + square(aside / 0.22F) * (1 + square(aside / 0.35F)));
+            if (spread < 0.01F || up > 0.7F) return 0;
+            const float spill = 1 / square(1 + std::max(up, 0.0F) / 0.08F);
+            const float beam =
+                1.2F * smoothstep(0.004F, -0.02F, up) / square(1 + std::max(-up, 0.0F) / 0.10F);
+            return spread * (spill + beam);
+        }
+        case Lobe::kCosine:
+            return std::max(dot(direction, light.axis), 0.0F);
+    }
+    return 0;
+}
+
+// How far a light matters beside the others; there it has faded to nothing.
+float reach(const Light& light) {
+    switch (light.lobe) {
+        case Lobe::kLamp:
+            return 36;
+        case Lobe::kHeadlamp:
+            return 75;
+        case Lobe::kCosine:
+            return std::min(std::sqrt(luminance(light.intensity_cd) / 0.15F), 24.0F);
+    }
+    return 0;
+}
+
+// Ends the inverse square law at the reach without an edge (Karis 2013, eq. 9).
+float fade(const Light& light, float d2) {
+    const float ratio = d2 / square(light.reach_m);
+    return square(std::max(1 - ratio * ratio, 0.0F));
+}
+
+}  // namespace
+
+void sort_lights(Street& street) {
+    for (Light& light : street.lights) light.reach_m = reach(light);
+    const int bins = static_cast<int>((kStreetEndZ + 40) / kBinLength);
+    street.lights_near.assign(static_cast<std::size_t>(bins), {});
+    for (int i = 0; i < bins; ++i) {
+        const float low = kBinLength * static_cast<float>(i) - 20;
+        const float high = low + kBinLength;
+        for (const Light& light : street.lights) {
+            const bool directed = light.lobe != Lobe::kLamp;
+            const float from =
+                light.position.z - (directed && light.axis.z > 0.5F ? 0 : light.reach_m);
+            const float to =
+                light.position.z + (directed && light.axis.z < -0.5F ? 0 : light.reach_m);
+            if (from < high && to > low)
+                street.lights_near[static_cast<std::size_t>(i)].push_back(light);
+        }
+    }
+}
+
+const std::vector<Light>& Street::lights_at(float z) const {
+    const auto last = static_cast<float>(lights_near.size() - 1);
+    return lights_near[static_cast<std::size_t>(std::clamp((z + 20) / kBinLength, 0.0F, last))];
+}
+
+Vec3 sky_radiance(Vec3 direction) {
+    // The glow of a town: sodium and LED light scattered back, brightest at the horizon.
+    const float up = std::max(direction.y, 0.0F);
+    const Vec3 zenith = Vec3{0.55F, 0.80F, 1.9F} * 0.0075F;
+    const Vec3 glow = Vec3{1.35F, 0.95F, 0.62F} * 0.060F;
+    return zenith + glow * std::exp(-up / 0.16F) +
+           Vec3{0.9F, 0.9F, 1.2F} * (0.010F * std::exp(-up / 0.5F));
+}
+
+Vec3 irradiance(const Street& street, Vec3 position, Vec3 normal) {
+    // From the sky and from walls that the lamps light: constant but for which way a surface faces.
+    constexpr Vec3 kAmbient = {0.46F, 0.38F, 0.33F};
+    Vec3 sum = kAmbient * (0.65F + 0.35F * normal.y);
+    for (const Light& light : street.lights_at(position.z)) {
+        const Vec3 to_light = light.position - position;
+        const float facing = dot(to_light, normal);
+        if (facing <= 0) continue;
+        const float d2 = dot(to_light, to_light);
+        if (d2 >= square(light.reach_m)) continue;
+        const float inverse = 1 / std::sqrt(d2);
+        const float strength = lobe(light, to_light * -inverse);
+        if (strength <= 0) continue;
+        sum += light.intensity_cd *
+               (fade(light, d2) * strength * facing * inverse / (d2 + square(light.radius_m) * 4));
+    }
+    return sum;
+}
+
+Vec3 glints(const Street& street, Vec3 position, Vec3 normal, Vec3 to_eye, float alpha, float f0,
+            bool on_road) {
+    const float cos_eye = dot(normal, to_eye);
+    if (cos_eye <= 0) return {};
+    Vec3 sum;
+    // Far lights mirror in the road just as near ones do; on upright surfaces they hardly show.
+    for (const Light& light : on_road ? street.lights : street.lights_at(position.z)) {
+        if (on_road && !light.in_reflection) continue;
+        const Vec3 difference = light.position - position;
+        const float d2 = dot(difference, difference);
+        const float inverse = 1 / std::sqrt(d2);
+        const Vec3 to_light = difference * inverse;
+        const float cos_light = dot(normal, to_light);
+        if (cos_light <= 0) continue;
+        const float strength = lobe(light, to_light * -1);
+        if (strength <= 0) continue;
+        const Vec3 half = normalize(to_light + to_eye);
+        const float cos_half = dot(normal, half);
+        // The source's own size widens the lobe (Karis 2013, "Real Shading in Unreal Engine 4").
+        const float wide = std::min(alpha + light.radius_m * inverse * 0.5F, 1.0F);
+        const float a2 = wide * wide;
+        const float distribution = a2 / (3.14159265F * square(cos_half * cos_half * (a2 - 1) + 1));
+        const float schlick = 1 - std::max(dot(half, to_eye), 0.0F);
+        const float fresnel = f0 + (1 - f0) * square(square(schlick)) * schlick;
+        // Height-correlated Smith masking with the cosines' denominator (Heitz 2014).
+        const float visibility =
+            0.5F / (cos_light * std::sqrt(cos_eye * cos_eye * (1 - a2) + a2) +
+                    cos_eye * std::sqrt(cos_light * cos_light * (1 - a2) + a2));
+        sum += light.intensity_cd *
+               (strength * fresnel * distribution * visibility * cos_light * inverse * inverse);
+    }
+    return sum;
+}
+
+Vec3 shade_matte(const Street& street, const SurfacePoint& at, Vec3 albedo, float gloss) {
+    constexpr float kInversePi = 0.31830989F;
+    Vec3 out = albedo * irradiance(street, at.position, at.normal) * kInversePi;
+    if (gloss > 0) {
+        out +=
+            glints(street, at.position, at.normal, at.direction * -1, 0.25F, 0.04F, false) * gloss;
+    }
+    return out;
+}
+
+}  // namespace aureole::scene::night
