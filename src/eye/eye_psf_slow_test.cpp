@@ -159,6 +159,20 @@ TEST(EyePsfSlow, HaloIsARingAt3DegBlueInsideRedOutside) {
     EXPECT_NEAR(bump(3), 1, 1e-6);
 }
 
+// Normalised over the band, not over the kernel: nearly all, and never more, lies within 7 deg.
+TEST(EyePsfSlow, ComponentsHoldTheirEnergyWithinTheirBand) {
+    const auto grid = wave::KernelGrid::square(view_1080p(), 401);
+    Eye eye;
+    eye.pupil_diameter_mm = 6;
+    for (const auto component : {Component::kBloom, Component::kHalo, Component::kStreaks}) {
+        const wave::Psf psf = eye_component(component, eye, grid);
+        for (const double off : psf.off_kernel_energy) {
+            EXPECT_GT(off, -2e-3);
+            EXPECT_LT(off, 0.05);
+        }
+    }
+}
+
 // Energy in streaks lies close to the horizontal, across the lashes.
 TEST(EyePsfSlow, StreaksLieAcrossTheLashes) {
     const auto grid = wave::KernelGrid::square(view_1080p(), 257);

@@ -112,14 +112,17 @@ TEST(GlareLaws, GlareDoesNotDependOnResolution) {
     EXPECT_NEAR(at_2160 / at_1080, 1, 0.01);
 }
 
-// Mean over rings one pixel wide of luminance * r^2.5, r from a centre in continuous coordinates.
+// Mean of luminance * r^2.5 over rings, r from a centre in continuous coordinates. Narrower rings
+// would measure how many pixels happen to lie in them, which counts for a streak.
+constexpr double kRingWidth = 4;  // pixels
+
 std::vector<double> ring_means(const Image& image, double centre_x, double centre_y, int rings) {
     std::vector<double> sums(static_cast<std::size_t>(rings));
     std::vector<double> counts(sums.size());
     for (int y = 0; y < image.height(); ++y) {
         for (int x = 0; x < image.width(); ++x) {
             const double r = std::hypot(x + 0.5 - centre_x, y + 0.5 - centre_y);
-            const auto ring = static_cast<std::size_t>(r);
+            const auto ring = static_cast<std::size_t>(r / kRingWidth);
             if (ring >= sums.size()) continue;
             sums[ring] += std::pow(r, 2.5) * color::luminance({image.at(x, y, 0), image.at(x, y, 1),
                                                                image.at(x, y, 2)});
@@ -151,15 +154,16 @@ TEST(GlareLaws, OnePixelOfFourIsFourPixelsOfOne) {
     EXPECT_NEAR(
         (energy_four.out + energy_four.off_picture) / (energy_one.out + energy_one.off_picture), 1,
         1e-4);
-    constexpr int kRings = 290;
+    constexpr int kRings = 72;
     const std::vector<double> rings_one = ring_means(glare_one, 300.5, 300.5, kRings);
     const std::vector<double> rings_four = ring_means(glare_four, 301, 301, kRings);
-    for (std::size_t r = 16; r < kRings; ++r) {
+    for (std::size_t r = 4; r < kRings; ++r) {
         EXPECT_NEAR(rings_four[r] / rings_one[r], 1, 0.005) << "ring " << r;
     }
 }
 
-// Against a picture three times as wide, whose borders are far away.
+// The middle third of a picture three times as wide: its own borders, where light leaves and none
+// comes back, are far away.
 TEST(GlareLaws, FlatFieldStaysFlatInPerspective) {
     constexpr int kWidth = 320;
     constexpr int kHeight = 180;
@@ -173,20 +177,21 @@ TEST(GlareLaws, FlatFieldStaysFlatInPerspective) {
     for (int c = 0; c < 3; ++c) std::fill_n(in.plane(c), in.pixels(), 1.0F);
     const wave::Psf psf = eye::eye_psf(night_eye(), wave::KernelGrid::full_reach(wide));
     const Image out = apply(wide, psf, in);
-    double lowest = 1;
-    double highest = 1;
+    float lowest = out.at(kWidth, kHeight);
+    float highest = lowest;
     for (int y = kHeight; y < 2 * kHeight; ++y) {
         for (int x = kWidth; x < 2 * kWidth; ++x) {
             for (int c = 0; c < 3; ++c) {
-                lowest = std::min<double>(lowest, out.at(x, y, c));
-                highest = std::max<double>(highest, out.at(x, y, c));
+                lowest = std::min(lowest, out.at(x, y, c));
+                highest = std::max(highest, out.at(x, y, c));
             }
         }
     }
     RecordProperty("lowest", std::to_string(lowest));
     RecordProperty("highest", std::to_string(highest));
-    EXPECT_GE(lowest, 0.99);
-    EXPECT_LE(highest, 1.01);
+    EXPECT_LE(highest - lowest, 0.01F * highest);
+    EXPECT_GT(lowest, 0.97F);  // the rest is scattered beyond 120 x 94 deg
+    EXPECT_LE(highest, 1.0F);
 }
 
 TEST(GlareLaws, WhiteLightMakesWhiteGlare) {

@@ -2,7 +2,6 @@
 //     W(x) L(x) = W(s) L(s) k(x - s),
 // is from the exact sum over angles, L(x) = E psf(angle between x and s), for a source in the
 // corner. The figures are those of docs/glare.md.
-#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -35,25 +34,44 @@ double weight(const View& view, double x, double y) {
     return std::pow(direction(view, x, y)[2], 3);
 }
 
-// Glare at a fraction `t` of the way from the source's corner to the opposite one: shift-invariant
-// over exact.
-double ratio(const View& view, double t, const eye::ScatterPsf& psf) {
-    const double x = t * view.width;
-    const double y = t * view.height;
+struct Position {
+    double x;
+    double y;
+};
+
+// Where the view shows what lies `away_deg` from its corner (0, 0), towards the optical axis or at
+// right angles to that.
+Position away_from_corner(const View& view, double away_deg, bool towards_axis) {
+    const Direction corner = direction(view, 0, 0);
+    const double theta = std::acos(corner[2]);
+    const double phi = std::atan2(corner[1], corner[0]);
+    const double away = rad_from_deg(away_deg);
+    const Direction radial = {std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi),
+                              -std::sin(theta)};
+    const Direction tangential = {-std::sin(phi), std::cos(phi), 0};
+    Direction seen;
+    for (std::size_t i = 0; i < 3; ++i) {
+        seen[i] = corner[i] * std::cos(away) +
+                  (towards_axis ? -radial[i] : tangential[i]) * std::sin(away);
+    }
     const double f = view.focal_length_px();
-    const double exact = psf.per_sr(angle_deg(direction(view, 0, 0), direction(view, x, y)));
+    return {view.axis_x + f * seen[0] / seen[2], view.axis_y + f * seen[1] / seen[2]};
+}
+
+// Glare of a source in the corner (0, 0): shift-invariant over exact.
+double ratio(const View& view, const Position& at, const eye::ScatterPsf& psf) {
+    const double exact = psf.per_sr(angle_deg(direction(view, 0, 0), direction(view, at.x, at.y)));
     // Energy kernel of a central source at the same displacement, per relative pixel.
-    const double displacement = std::hypot(x, y) / f;
-    const double angle = std::atan(displacement);
+    const double angle = std::atan(std::hypot(at.x, at.y) / view.focal_length_px());
     const double kernel = psf.per_sr(deg_from_rad(angle)) * std::pow(std::cos(angle), 3);
-    return weight(view, 0, 0) * kernel / weight(view, x, y) / (weight(view, 0, 0) * exact);
+    return kernel / (weight(view, at.x, at.y) * exact);
 }
 
 struct Figures {
     double fov_deg;
-    double near;      // 5 % of the diagonal from the source
-    double centre;    // the picture's centre
-    double opposite;  // the opposite corner
+    double towards_axis;    // 10 deg from the source
+    double at_right_angle;  // 10 deg from the source
+    double centre;          // of the picture
 };
 
 class CornerSource : public testing::TestWithParam<Figures> {};
@@ -62,16 +80,25 @@ TEST_P(CornerSource, ErrorIsAsDocumented) {
     const Figures& expected = GetParam();
     const View view = View::from_fov(1920, 1080, expected.fov_deg, Projection::kPerspective);
     const eye::ScatterPsf psf(eye::ScatterModel::kCie, 30, eye::Pigmentation::kBrown, 5);
-    fmt::print("{} deg: shift-invariant / exact near {:.3f}, centre {:.3f}, opposite {:.3f}\n",
-               expected.fov_deg, ratio(view, 0.05, psf), ratio(view, 0.5, psf),
-               ratio(view, 1, psf));
-    EXPECT_NEAR(ratio(view, 0.05, psf), expected.near, 0.01);
-    EXPECT_NEAR(ratio(view, 0.5, psf), expected.centre, 0.01);
-    EXPECT_NEAR(ratio(view, 1, psf), expected.opposite, 0.01);
+    EXPECT_NEAR(ratio(view, away_from_corner(view, 10, true), psf), expected.towards_axis, 0.005);
+    EXPECT_NEAR(ratio(view, away_from_corner(view, 10, false), psf), expected.at_right_angle,
+                0.005);
+    EXPECT_NEAR(ratio(view, {view.axis_x, view.axis_y}, psf), expected.centre, 0.005);
+}
+
+// On the axis the two are the same thing.
+TEST(CentralSource, IsExact) {
+    View view = View::from_fov(1920, 1080, 60, Projection::kPerspective);
+    view.axis_x = view.axis_y = 0;
+    const eye::ScatterPsf psf(eye::ScatterModel::kCie, 30, eye::Pigmentation::kBrown, 5);
+    for (const double x : {1.0, 30.0, 700.0}) {
+        EXPECT_NEAR(ratio(view, {x, 0.7 * x}, psf), 1, 1e-9);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Fields, CornerSource,
-                         testing::Values(Figures{60, 1, 1, 1}, Figures{90, 1, 1, 1}),
+                         testing::Values(Figures{60, 0.719, 1.165, 0.579},
+                                         Figures{90, 0.510, 1.441, 0.284}),
                          [](const auto& instance) {
                              return std::to_string(static_cast<int>(instance.param.fov_deg)) +
                                     "_deg";

@@ -30,7 +30,7 @@ enum class ParticleOptics {
 
 struct JointPsfOptions {
     // |FFT|^2 needs an extent of twice the pupil for patterns finer than lambda / extent.
-    // 64 to 16384 samples; extent 10 to 100 mm. Memory: 24 bytes per sample, 32 with a transform
+    // 64 to 16384 samples; extent 10 to 100 mm. Memory: 16 bytes per sample, 28 with a transform
     // per wavelength.
     wave::ApertureGrid aperture = {4096, 10};
     SpectralSampling spectral;  // with a transform per wavelength, 0 bands means 32

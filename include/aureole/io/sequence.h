@@ -1,4 +1,5 @@
 // Numbered picture sequences: which frames, and what their files are called.
+// To be used where frames were asked for: a single picture may be called "50% #2.exr".
 #pragma once
 
 #include <string>

@@ -1,0 +1,33 @@
+// Opaque shapes painted over a picture, far ones first, with antialiased edges: leaves, branches,
+// fences. What must keep its energy exactly is drawn by coverage.h instead.
+#pragma once
+
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/vec.h"
+
+namespace aureole::scene {
+
+// A straight stroke from one circle to another, or, when both ends meet in radius and are close, a
+// leaf. Continuous pixel coordinates.
+struct Stroke {
+    Pixel from;
+    Pixel to;
+    float radius_from;
+    float radius_to;
+    float depth;  // m, for sorting
+    Vec3 radiance;
+    // Radiance at one edge relative to the other: strokes are shaded across, from `radiance` times
+    // 1 - shading on their left (seen from `from` to `to`) to 1 + shading on their right.
+    float shading = 0;
+};
+
+// Projects a stroke given in the world; returns false behind the camera.
+bool project_stroke(const Camera& camera, Vec3 from, Vec3 to, float radius_from, float radius_to,
+                    Vec3 radiance, float shading, std::vector<Stroke>& strokes);
+
+// Sorts by depth and paints.
+void paint(std::vector<Stroke>& strokes, Image& picture);
+
+}  // namespace aureole::scene
