@@ -244,7 +244,7 @@ Components::CoronaAndStreaks Components::corona_and_streaks(bool with_corona, bo
     // does not depend on phi, so C itself is transformed, and is real.
     draw_pupil_once();
     struct Sums {
-        double open = 0, covered = 0, blocked = 0, blocked2 = 0;
+        double open = 0, covered = 0, blocked = 0;
     };
     std::vector<Sums> rows(count);
     parallel_for(count, [&](std::size_t j, int) {
@@ -263,7 +263,6 @@ Components::CoronaAndStreaks Components::corona_and_streaks(bool with_corona, bo
             sums.open += static_cast<double>(open[i]);
             sums.covered += static_cast<double>(c[i]);
             sums.blocked += static_cast<double>(l[i]);
-            sums.blocked2 += static_cast<double>(l[i]) * static_cast<double>(l[i]);
         }
     });
     Sums total;
@@ -271,7 +270,6 @@ Components::CoronaAndStreaks Components::corona_and_streaks(bool with_corona, bo
         total.open += row.open;
         total.covered += row.covered;
         total.blocked += row.blocked;
-        total.blocked2 += row.blocked2;
     }
     result.blocked_share = total.blocked / total.open;
     with_corona = total.covered > 0;
@@ -311,15 +309,17 @@ Components::CoronaAndStreaks Components::corona_and_streaks(bool with_corona, bo
     }
     if (with_streaks) {
         field.re = std::move(streak_amplitude);
+        // The value at frequency 0: any scale that keeps a float in its range would do.
+        const double peak = std::pow(static_cast<double>(field.re[0]), 2);
         wave::RingWeights weights;
         weights.scale.resize(count / 2);
-        const double energy = total.blocked2 * static_cast<double>(count * count);
         for (std::size_t ring = 0; ring < weights.scale.size(); ++ring) {
-            weights.scale[ring] = static_cast<float>(band_fade(ring, n, kStreaksFade) / energy);
+            weights.scale[ring] = static_cast<float>(band_fade(ring, n, kStreaksFade) / peak);
         }
         const auto pattern = wave::PatternIntegral::from_transform(field, weights);
         finish_stage(&EyePsfTimings::pattern, 0.85);
         result.streaks = onto_pixels(pattern, wave::PixelRule::kEnergy, 0);
+        multiply(*result.streaks, 1 / pattern.total());
         finish_stage(&EyePsfTimings::spectral, 0.95);
     }
     return result;

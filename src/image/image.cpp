@@ -19,13 +19,13 @@ Image::Image(int width, int height, int channels)
 }
 
 ImageView Image::view() noexcept {
-    return {data_.data(), width_, height_, channels_, 1, width_,
-            static_cast<std::ptrdiff_t>(pixels())};
+    return {
+        data_.data(), width_, height_, channels_, 1, width_, static_cast<std::ptrdiff_t>(pixels())};
 }
 
 ConstImageView Image::view() const noexcept {
-    return {data_.data(), width_, height_, channels_, 1, width_,
-            static_cast<std::ptrdiff_t>(pixels())};
+    return {
+        data_.data(), width_, height_, channels_, 1, width_, static_cast<std::ptrdiff_t>(pixels())};
 }
 
 ConstImageView interleaved_view(const float* data, int width, int height, int channels) {

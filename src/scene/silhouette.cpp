@@ -24,12 +24,20 @@ void paint_band(const Stroke& s, int first_row, int last_row, Image& picture) {
         for (int x = std::max(low_x, 0); x < std::min(high_x, picture.width()); ++x) {
             const float px = static_cast<float>(x + 0.5 - s.from.x);
             const float py = static_cast<float>(y + 0.5 - s.from.y);
-            const float along = clamp01((px * ax + py * ay) / squared);
-            const float distance = std::hypot(px - along * ax, py - along * ay);
+            const float free = (px * ax + py * ay) / squared;
+            const float along = clamp01(free);
+            const float dx = px - along * ax;
+            const float dy = py - along * ay;
+            const float distance = std::sqrt(dx * dx + dy * dy);
+            float ends = 1;
+            if (s.flat) {
+                const float beyond = (std::abs(free - 0.5F) - 0.5F) / inverse_length;
+                ends = clamp01(0.5F - beyond);
+            }
             const float radius = mix(s.radius_from, s.radius_to, along);
             // A pixel-wide edge; strokes thinner than a pixel become transparent instead.
             const float cover =
-                clamp01(radius + 0.5F - distance) * std::min(1.0F, 2 * radius + 0.02F);
+                clamp01(radius + 0.5F - distance) * std::min(1.0F, 2 * radius + 0.02F) * ends;
             if (cover <= 0) continue;
             const float across = (px * ay - py * ax) * inverse_length / std::max(radius, 0.5F);
             const float shade = 1 + s.shading * std::clamp(across, -1.0F, 1.0F);
@@ -46,7 +54,7 @@ void paint_band(const Stroke& s, int first_row, int last_row, Image& picture) {
 }  // namespace
 
 bool project_stroke(const Camera& camera, Vec3 from, Vec3 to, float radius_from, float radius_to,
-                    Vec3 radiance, float shading, std::vector<Stroke>& strokes) {
+                    Vec3 radiance, float shading, std::vector<Stroke>& strokes, bool flat) {
     const float depth_from = camera.depth(from);
     const float depth_to = camera.depth(to);
     const auto a = camera.project(from);
@@ -54,7 +62,7 @@ bool project_stroke(const Camera& camera, Vec3 from, Vec3 to, float radius_from,
     if (!a || !b || depth_from < 0.3F || depth_to < 0.3F) return false;
     strokes.push_back({*a, *b, radius_from / (depth_from * camera.pixel_size()),
                        radius_to / (depth_to * camera.pixel_size()), 0.5F * (depth_from + depth_to),
-                       radiance, shading});
+                       radiance, shading, flat});
     return true;
 }
 

@@ -14,13 +14,18 @@ namespace {
 
 constexpr int kFirstSamples = 2;
 constexpr int kMoreSamples = 6;
-constexpr float kContrast = 0.06F;  // of neighbouring samples, beyond which more are taken
+constexpr float kContrast = 0.5F;  // within a pixel, beyond which more samples are taken
 
-Vec3 radiance(const Camera& camera, double x, double y) {
+struct Seen {
+    int what;
+    Vec3 radiance;
+};
+
+Seen look(const Camera& camera, double x, double y) {
     const Vec3 direction = normalize(camera.ray(x, y).direction);
-    Vec3 out;
-    if (land_radiance(camera.position(), direction, camera.pixel_size(), out)) return out;
-    return sky_radiance(direction);
+    Vec3 land;
+    const int what = land_radiance(camera.position(), direction, camera.pixel_size(), land);
+    return {what, what > 0 ? land : sky_radiance(direction)};
 }
 
 void render_land_and_sky(const Camera& camera, Image& picture) {
@@ -31,17 +36,21 @@ void render_land_and_sky(const Camera& camera, Image& picture) {
             float low = 1e9F;
             float high = 0;
             int count = 0;
+            int first = 0;
+            bool edge = false;
             const auto sample = [&](int samples) {
                 for (int i = 0; i < samples; ++i, ++count) {
                     const auto offset = pixel_sample(x, y, count);
-                    const Vec3 value = radiance(camera, x + offset[0], y + offset[1]);
-                    low = std::min(low, luminance(value));
-                    high = std::max(high, luminance(value));
-                    sum += value;
+                    const Seen seen = look(camera, x + offset[0], y + offset[1]);
+                    if (count == 0) first = seen.what;
+                    edge = edge || seen.what != first;
+                    low = std::min(low, luminance(seen.radiance));
+                    high = std::max(high, luminance(seen.radiance));
+                    sum += seen.radiance;
                 }
             };
             sample(kFirstSamples);
-            if (high > (1 + kContrast) * low) sample(kMoreSamples);
+            if (edge || high > (1 + kContrast) * low) sample(kMoreSamples);
             const Vec3 mean = sum * (1 / static_cast<float>(count));
             picture.at(x, y, 0) = mean.x;
             picture.at(x, y, 1) = mean.y;
@@ -84,6 +93,8 @@ Scene make_sun(const SceneOptions& options, const View& view) {
     add_tree(camera, growth, strokes);
     Random carpentry(options.seed, 22);
     add_fence(camera, carpentry, strokes);
+    Random meadow(options.seed, 23);
+    add_grass(camera, meadow, strokes);
     paint(strokes, scene.rgb);
     scene.adaptation_cd_m2 = mean_luminance(scene.rgb);
     add_light(sun_outline(camera), sun_colour() * kSunLuminance, scene.rgb);

@@ -52,37 +52,6 @@ Vec3 through_air(Vec3 radiance, float distance_m, Vec3 direction) {
     return mix(sky_radiance(level) * 0.72F, radiance, clear);
 }
 
-// Share of the sun's light that reaches a point on the meadow past the tree.
-float past_tree(Vec3 p, float footprint) {
-    const Vec3 sun = sun_direction();
-    // The trunk, as a wall across the light with a soft edge: the sun is half a degree wide.
-    float light = 1;
-    const Vec3 to_tree = kTreeFoot - p;
-    const float reach = to_tree.x * sun.x + to_tree.z * sun.z;
-    if (reach <= 0) return 1;
-    const float level = sun.x * sun.x + sun.z * sun.z;
-    const float t = reach / level;
-    const float aside = std::abs((to_tree.x * sun.z - to_tree.z * sun.x) / std::sqrt(level));
-    const float blur = 0.5F * (t * 0.0093F + footprint) + 0.02F;
-    const float height = t * sun.y;
-    if (height < kCrown.centre.y) light *= smoothstep(-blur, blur, aside - kTrunkRadius);
-    // The crown: density of leaves along the ray, dappled.
-    const Vec3 c = (kCrown.centre - p);
-    const Vec3 scale = {1 / kCrown.half_size.x, 1 / kCrown.half_size.y, 1 / kCrown.half_size.z};
-    const Vec3 d = sun * scale;
-    const Vec3 m = c * scale;
-    const float along = dot(m, d) / dot(d, d);
-    const Vec3 nearest = m - d * along;
-    const float inside = 1 - dot(nearest, nearest);
-    if (along > 0 && inside > -0.4F) {
-        const Vec3 q = p + sun * along;
-        const float holes = fractal_noise(q.x * 1.3F, q.y * 1.3F, 1.0F, 3, footprint, 91);
-        const float density = smoothstep(-0.25F, 0.35F, inside + 0.55F * holes);
-        light *= 1 - 0.96F * density;
-    }
-    return light;
-}
-
 Vec3 meadow(Vec3 p, float distance, float footprint, Vec3 direction) {
     const float across = footprint;
     const float filter = footprint * std::min(1 / std::max(-direction.y, 0.01F), 12.0F) * 0.5F;
@@ -94,30 +63,32 @@ Vec3 meadow(Vec3 p, float distance, float footprint, Vec3 direction) {
     Vec3 albedo = mix(Vec3{0.085F, 0.125F, 0.030F}, Vec3{0.20F, 0.17F, 0.065F}, 0.75F * dry);
     albedo = albedo * std::max(1 + 0.45F * clumps + 0.75F * blades + 0.35F * wide, 0.15F);
     // A track of two ruts that winds towards the hills.
-    const float centre = -1.0F - 0.055F * p.z + 2.6F * std::sin(p.z * 0.045F) +
-                         0.3F * fractal_noise(p.z, 0, 9, 3, 0, 71);
+    const float centre = track_x(p.z);
     const float rut = std::abs(std::abs(p.x - centre) - 0.75F) +
                       0.10F * fractal_noise(p.x, p.z, 0.5F, 3, filter, 73);
     const float bare = smoothstep(0.36F + 0.5F * filter, 0.20F - 0.3F * filter, rut);
     const float gravel = 1 + 0.5F * fractal_noise(p.x, 0.5F * p.z, 0.12F, 3, across, 77);
     albedo = mix(albedo, Vec3{0.24F, 0.20F, 0.145F} * gravel, 0.85F * bare);
 
-    const float light = past_tree(p, footprint);
+    const float light = sunlight(p, footprint);
     const Vec3 sun = sun_colour() * (1.05e5F * sun_direction().y);
     // Towards the sun leaves of grass glow by transmission.
     const float against =
         std::max(dot(direction, normalize({sun_direction().x, 0, sun_direction().z})), 0.0F);
     const Vec3 through = Vec3{1.25F, 1.15F, 0.5F} * (0.9F * against * against * (1 - bare));
-    const Vec3 lit = albedo *
-                     (sun * (light * (0.75F + luminance(through) * 0)) + sky_illuminance()) *
-                     kInversePi;
+    const Vec3 lit = albedo * (sun * (light * 0.75F) + sky_illuminance()) * kInversePi;
     const Vec3 glow = albedo * through * sun * (light * kInversePi);
     return through_air(lit + glow, distance, direction);
 }
 
 }  // namespace
 
-bool land_radiance(Vec3 eye, Vec3 direction, float footprint, Vec3& out) {
+float track_x(float z) {
+    return -1.0F - 0.055F * z + 2.6F * std::sin(z * 0.045F) +
+           0.3F * fractal_noise(z, 0, 9, 3, 0, 71);
+}
+
+int land_radiance(Vec3 eye, Vec3 direction, float footprint, Vec3& out) {
     const float level = std::hypot(direction.x, direction.z);
     const float slope = direction.y / level;
     const float azimuth = std::atan2(direction.x, direction.z);
@@ -127,14 +98,17 @@ bool land_radiance(Vec3 eye, Vec3 direction, float footprint, Vec3& out) {
         if (distance < kRidges[0].distance_m * 0.9F) {
             const Vec3 p = eye + direction * (distance / level);
             out = meadow(p, distance, distance * footprint, direction);
-            return true;
+            return 1;
         }
     }
+    int which = 1;
     for (const Ridge& ridge : kRidges) {
+        ++which;
+        const float y = slope * ridge.distance_m;
+        if (y > ridge.height_m + 1.6F * ridge.relief_m + 1.7F * ridge.trees_m) continue;
         const float pixel_m = footprint * ridge.distance_m;
         const float along = azimuth * ridge.distance_m;
         const float top = skyline(ridge, along, pixel_m);
-        const float y = slope * ridge.distance_m;
         if (y > top) continue;
         // Slopes that face the eye lie in their own shadow; hedges and fields give them texture.
         const float fields = fractal_noise(along, (top - y) * 2.2F, 0.22F * ridge.period_m, 4,
@@ -144,9 +118,9 @@ bool land_radiance(Vec3 eye, Vec3 direction, float footprint, Vec3& out) {
         const Vec3 surface =
             ridge.albedo * light * (kInversePi * std::max(1 + 0.8F * fields, 0.3F));
         out = through_air(surface, ridge.distance_m * 0.8F, direction);
-        return true;
+        return which;
     }
-    return false;
+    return 0;
 }
 
 }  // namespace aureole::scene::daylight

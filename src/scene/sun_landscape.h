@@ -27,19 +27,30 @@ Vec3 sky_radiance(Vec3 direction);
 // Illuminance (lx as rgb) on a level surface from the sky without the sun.
 Vec3 sky_illuminance();
 
-// Radiance of hills and meadow in a direction; `footprint` is the size of a pixel at distance 1 m.
-// False if the direction shows sky.
-bool land_radiance(Vec3 eye, Vec3 direction, float footprint, Vec3& out);
+// Radiance of hills and meadow in a unit direction; `footprint` is the size of a pixel at distance
+// 1 m. Returns which of them it is, a number above 0, or 0 and no radiance for the sky.
+int land_radiance(Vec3 eye, Vec3 direction, float footprint, Vec3& out);
 
 // The tree: trunk, branches and leaves, and a fence in the meadow.
 struct Crown {
     Vec3 centre;
     Vec3 half_size;
 };
-inline constexpr Vec3 kTreeFoot = {4.9F, 0, 13.5F};
-inline constexpr Crown kCrown = {{4.9F, 5.6F, 13.5F}, {3.7F, 2.9F, 3.5F}};
+inline constexpr Vec3 kTreeFoot = {5.6F, 0, 15.5F};
+inline constexpr Crown kCrown = {{5.6F, 5.9F, 15.5F}, {3.9F, 3.1F, 3.7F}};
 inline constexpr float kTrunkRadius = 0.30F;
 void add_tree(const Camera& camera, Random& random, std::vector<Stroke>& strokes);
 void add_fence(const Camera& camera, Random& random, std::vector<Stroke>& strokes);
+void add_grass(const Camera& camera, Random& random, std::vector<Stroke>& strokes);
+
+// Line of the fence and of the track over the meadow: x at a depth.
+float fence_x(float z);
+float track_x(float z);
+inline constexpr float kPostSpacing = 2.6F;
+inline constexpr float kFirstPostZ = 5.5F;
+inline constexpr float kRailHeights[] = {0.48F, 0.95F};
+
+// Share of the sun's light that passes tree and fence to a point on the meadow.
+float sunlight(Vec3 point, float footprint);
 
 }  // namespace aureole::scene::daylight

@@ -26,16 +26,16 @@ Vec3 sun_colour() {
 Vec3 sky_radiance(Vec3 direction) {
     // ISO 15469 / CIE S 011, sky type 12 (clear), with a softer aureole as of a slightly hazy day:
     // gradation by height times indicatrix by angle to the sun.
-    constexpr float kZenithLuminance = 1500;
+    constexpr float kZenithLuminance = 1150;
     const float up = std::max(direction.y, 0.015F);
     const float gradation = (1 - std::exp(-0.32F / up)) / (1 - std::exp(-0.32F));
     const float cosine = std::clamp(dot(direction, sun_direction()), -1.0F, 1.0F);
     const float angle = std::acos(cosine);
     const float indicatrix =
-        1 + 5.5F * std::exp(-3 * angle) + 7 * std::exp(-angle / 0.06F) + 0.45F * cosine * cosine;
+        1 + 4.0F * std::exp(-3 * angle) + 7 * std::exp(-angle / 0.06F) + 0.45F * cosine * cosine;
     const float level = kZenithLuminance * gradation * indicatrix * 0.62F;
 
-    static const Vec3 blue = unit_luminance({0.42F, 0.78F, 1.75F});
+    static const Vec3 blue = unit_luminance({0.33F, 0.72F, 1.95F});
     static const Vec3 pale = unit_luminance({0.96F, 1.0F, 1.10F});
     static const Vec3 warm = unit_luminance({1.14F, 1.0F, 0.80F});
     const float height = 1 - std::exp(-up / 0.20F);

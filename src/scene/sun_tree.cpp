@@ -29,11 +29,12 @@ float towards_sun(Vec3 p) {
     const Vec3 d = p - kCrown.centre;
     const Vec3 unit = {d.x / kCrown.half_size.x, d.y / kCrown.half_size.y,
                        d.z / kCrown.half_size.z};
-    return smoothstep(0.15F, 1.05F, dot(unit, normalize(sun_direction() + Vec3{-0.5F, 0.45F, 0})));
+    return smoothstep(-0.7F, 1.1F, dot(unit, normalize(sun_direction() + Vec3{-0.5F, 0.45F, 0})));
 }
 
 void add_leaves(Tree& tree, Vec3 tip, int count, float spread) {
-    const Vec3 shade_light = sky_illuminance() * 0.42F;
+    // From the sky and, as much again, from the meadow below.
+    const Vec3 shade_light = sky_illuminance() * 0.85F;
     const Vec3 sun = sun_colour() * 1.05e5F;
     for (int i = 0; i < count; ++i) {
         const Vec3 at =
@@ -42,7 +43,8 @@ void add_leaves(Tree& tree, Vec3 tip, int count, float spread) {
         along.y -= 0.5F;  // leaves hang
         along = normalize(along) * uniform(tree.random, 0.05, 0.10);
         const float tone = uniform(tree.random, 0.6, 1.3);
-        const float lit = towards_sun(at) * (uniform(tree.random, 0, 1) < 0.55F ? 1.0F : 0.15F);
+        const float lit =
+            square(towards_sun(at)) * (uniform(tree.random, 0, 1) < 0.5F ? 1.0F : 0.12F);
         const Vec3 reflected = Vec3{0.045F, 0.070F, 0.020F} * shade_light * (kInversePi * tone);
         const Vec3 transmitted =
             Vec3{0.060F, 0.085F, 0.010F} * sun * (0.55F * lit * kInversePi * tone);
@@ -57,7 +59,7 @@ void grow(Tree& tree, Vec3 from, Vec3 direction, float length_m, float radius, i
     constexpr int kLevels = 6;
     // A branch bends as it grows: towards the light, and off its straight line.
     constexpr int kPieces = 4;
-    const Vec3 bark = Vec3{0.075F, 0.060F, 0.045F} * sky_illuminance() * (0.40F * kInversePi);
+    const Vec3 bark = Vec3{0.075F, 0.060F, 0.045F} * sky_illuminance() * (0.7F * kInversePi);
     Vec3 at = from;
     Vec3 heading = direction;
     float r = radius;
@@ -70,14 +72,14 @@ void grow(Tree& tree, Vec3 from, Vec3 direction, float length_m, float radius, i
                        tree.strokes);
         at = next;
         r *= taper;
-        if (level >= 3) add_leaves(tree, at, 5, 0.45F);
+        if (level >= 3) add_leaves(tree, at, 4, 0.42F);
         if (level >= 1 && level < kLevels - 1 && piece == 1) {
             const Vec3 side = normalize(heading + random_direction(tree.random) * 0.95F);
             grow(tree, at, side, length_m * 0.62F, r * 0.55F, level + 1);
         }
     }
     if (level >= kLevels - 1) {
-        add_leaves(tree, at, 16, 0.50F);
+        add_leaves(tree, at, 13, 0.42F);
         return;
     }
     const int children = level == 0 ? 5 : (level == 1 ? 3 : 2);
@@ -100,34 +102,71 @@ void grow(Tree& tree, Vec3 from, Vec3 direction, float length_m, float radius, i
 void add_tree(const Camera& camera, Random& random, std::vector<Stroke>& strokes) {
     Tree tree{camera, random, strokes};
     // Roots spread at the foot.
-    const Vec3 bark = Vec3{0.075F, 0.060F, 0.045F} * sky_illuminance() * (0.40F * kInversePi);
-    for (int i = 0; i < 6; ++i) {
-        const float angle = 1.05F * static_cast<float>(i) + 0.4F;
-        project_stroke(camera, kTreeFoot + Vec3{0, 0.45F, 0},
-                       kTreeFoot + Vec3{0.62F * std::cos(angle), -0.02F, 0.62F * std::sin(angle)},
-                       0.20F, 0.05F, bark, -0.3F, strokes);
+    const Vec3 bark = Vec3{0.075F, 0.060F, 0.045F} * sky_illuminance() * (0.7F * kInversePi);
+    for (int i = 0; i < 7; ++i) {
+        const float angle = 0.9F * static_cast<float>(i) + 0.2F;
+        const Vec3 out = {std::cos(angle), 0, std::sin(angle)};
+        project_stroke(camera, kTreeFoot + out * 0.10F + Vec3{0, 0.62F, 0},
+                       kTreeFoot + out * uniform(random, 0.36, 0.50), 0.185F, 0.04F, bark, -0.45F,
+                       strokes);
     }
-    grow(tree, kTreeFoot, {0.02F, 1, 0}, 2.5F, kTrunkRadius, 0);
+    grow(tree, kTreeFoot + Vec3{0, 0.30F, 0}, {0.02F, 1, 0}, 2.5F, kTrunkRadius, 0);
 }
 
+float fence_x(float z) { return -4.4F - 0.02F * z + 0.9F * std::sin(z * 0.05F); }
+
 void add_fence(const Camera& camera, Random& random, std::vector<Stroke>& strokes) {
-    const Vec3 wood = Vec3{0.11F, 0.095F, 0.075F} * sky_illuminance() * (0.5F * kInversePi);
-    Vec3 last_low;
-    Vec3 last_high;
-    for (int i = 0; i < 26; ++i) {
-        const float z = 5.5F + 2.6F * static_cast<float>(i);
-        const Vec3 foot = {
-            -4.6F - 0.02F * z + 0.9F * std::sin(z * 0.05F) + uniform(random, -0.06, 0.06), 0, z};
-        const Vec3 lean = {uniform(random, -0.05, 0.05), uniform(random, 1.05, 1.2), 0};
-        project_stroke(camera, foot, foot + lean, 0.065F, 0.058F, wood, 0.3F, strokes);
-        const Vec3 low = foot + Vec3{0, 0.48F + uniform(random, -0.03, 0.03), -0.05F};
-        const Vec3 high = foot + Vec3{0, 0.95F + uniform(random, -0.03, 0.03), -0.05F};
-        if (i > 0) {
-            project_stroke(camera, last_low, low, 0.038F, 0.038F, wood, 0, strokes);
-            project_stroke(camera, last_high, high, 0.038F, 0.038F, wood, 0, strokes);
+    const Vec3 wood = Vec3{0.13F, 0.115F, 0.09F} * sky_illuminance() * (0.7F * kInversePi);
+    Vec3 last;
+    for (int i = 0; i < 40; ++i) {
+        const float z = kFirstPostZ + kPostSpacing * static_cast<float>(i);
+        const Vec3 foot = {fence_x(z), -0.02F, z};
+        const Vec3 lean = {uniform(random, -0.04, 0.04), uniform(random, 1.06, 1.16), 0};
+        project_stroke(camera, foot, foot + lean, 0.065F, 0.06F, wood, 0.45F, strokes, true);
+        const Vec3 dip = {0, uniform(random, -0.025, 0.025), -0.06F};
+        for (const float rail : kRailHeights) {
+            if (i == 0) continue;
+            project_stroke(camera, last + Vec3{0, rail, 0}, foot + dip + Vec3{0, rail, 0}, 0.038F,
+                           0.038F, wood * 0.9F, 0.2F, strokes, true);
         }
-        last_low = low;
-        last_high = high;
+        last = foot + dip;
+    }
+}
+
+// Single blades where a pixel shows them, and tufts about the feet of posts and tree.
+void add_grass(const Camera& camera, Random& random, std::vector<Stroke>& strokes) {
+    const Vec3 sun = sun_colour() * 1.05e5F;
+    const auto blade = [&](Vec3 root, double tallest) {
+        const float height = uniform(random, 0.35 * tallest, tallest);
+        const Vec3 tip = root + Vec3{uniform(random, -0.4, 0.4) * height, height,
+                                     uniform(random, -0.3, 0.3) * height};
+        const float dry = uniform(random, 0, 1);
+        const Vec3 albedo = mix(Vec3{0.060F, 0.095F, 0.014F}, Vec3{0.15F, 0.13F, 0.05F}, dry * dry);
+        const float lit = sunlight(root, 0.02F) * uniform(random, 0.15, 0.75);
+        const Vec3 radiance =
+            albedo * (sun * (0.42F * lit) + sky_illuminance() * 0.8F) * kInversePi;
+        const float width = uniform(random, 0.0022, 0.0045);
+        project_stroke(camera, root, tip, width, 0.3F * width, radiance, 0.2F, strokes);
+    };
+    for (int i = 0; i < 26000; ++i) {
+        // Even over the picture: depth falls as the inverse of a uniform variable.
+        const float z = 1 / uniform(random, 1 / 26.0, 1 / 3.3);
+        const float x = uniform(random, -0.75, 0.75) * z;
+        const float from_track = std::abs(std::abs(x - track_x(z)) - 0.75F);
+        if (from_track < 0.33F) continue;
+        blade({x, 0, z}, 0.20);
+    }
+    for (int i = 0; i < 40; ++i) {
+        const float z = kFirstPostZ + kPostSpacing * static_cast<float>(i);
+        for (int n = 0; n < 40; ++n) {
+            blade({fence_x(z) + uniform(random, -0.25, 0.25), 0, z + uniform(random, -0.15, 0.15)},
+                  0.34);
+        }
+    }
+    for (int n = 0; n < 900; ++n) {
+        const float angle = uniform(random, 0, 6.28318);
+        const float r = uniform(random, 0.3, 0.95);
+        blade(kTreeFoot + Vec3{r * std::cos(angle), 0, r * std::sin(angle)}, 0.36);
     }
 }
 

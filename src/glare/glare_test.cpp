@@ -1,0 +1,208 @@
+#include "aureole/glare/glare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "aureole/base/error.h"
+#include "aureole/base/random.h"
+
+namespace aureole::glare {
+namespace {
+
+// A wide, uneven, coloured kernel with a hot centre; `share` of the energy lies inside.
+wave::Psf uneven_psf(const View& view, int size, double share = 0.9) {
+    wave::Psf psf;
+    psf.grid = wave::KernelGrid::square(view, size);
+    psf.kernel = Image(size, size, 3);
+    for (int c = 0; c < 3; ++c) {
+        Random random(7, static_cast<std::uint64_t>(c));
+        double sum = 0;
+        for (int y = 0; y < size; ++y) {
+            for (int x = 0; x < size; ++x) {
+                const double r = std::hypot(x - size / 2, y - size / 2);
+                psf.kernel.at(x, y, c) =
+                    static_cast<float>(random.uniform(0.5, 1.5) / (0.2 + r * r));
+                sum += psf.kernel.at(x, y, c);
+            }
+        }
+        for (std::size_t i = 0; i < psf.kernel.pixels(); ++i) {
+            psf.kernel.plane(c)[i] *= static_cast<float>(share / sum);
+        }
+        psf.off_kernel_energy[static_cast<std::size_t>(c)] = 1 - share;
+    }
+    return psf;
+}
+
+View small_view(Projection projection = Projection::kPerspective) {
+    return View::from_fov(40, 30, 60, projection);
+}
+
+Image noise(const View& view) {
+    Image image(view.width, view.height, 3);
+    Random random(3);
+    for (int c = 0; c < 3; ++c) {
+        for (std::size_t i = 0; i < image.pixels(); ++i) {
+            image.plane(c)[i] = static_cast<float>(random.log_uniform(1e-2, 1e3));
+        }
+    }
+    return image;
+}
+
+void expect_near(const Image& actual, const Image& expected, double tolerance) {
+    for (int c = 0; c < expected.channels(); ++c) {
+        for (std::size_t i = 0; i < expected.pixels(); ++i) {
+            ASSERT_NEAR(actual.plane(c)[i], expected.plane(c)[i], tolerance) << "channel " << c;
+        }
+    }
+}
+
+TEST(ShareInside, AgreesWithPlainSums) {
+    const View view = View::from_fov(9, 6, 40, Projection::kConstantPitch);
+    for (const int size : {1, 5, 17, 31}) {
+        const Image kernel = uneven_psf(view, size).kernel;
+        const Image share = share_inside(9, 6, kernel);
+        for (int c = 0; c < 3; ++c) {
+            for (int sy = 0; sy < 6; ++sy) {
+                for (int sx = 0; sx < 9; ++sx) {
+                    double sum = 0;
+                    for (int y = 0; y < 6; ++y) {
+                        for (int x = 0; x < 9; ++x) {
+                            const int kx = x - sx + size / 2;
+                            const int ky = y - sy + size / 2;
+                            if (kx < 0 || ky < 0 || kx >= size || ky >= size) continue;
+                            sum += kernel.at(kx, ky, c);
+                        }
+                    }
+                    ASSERT_NEAR(share.at(sx, sy, c), sum, 1e-6);
+                }
+            }
+        }
+    }
+}
+
+TEST(Glare, AgreesWithTheDirectMethod) {
+    for (const Projection projection : {Projection::kPerspective, Projection::kConstantPitch}) {
+        const View view = small_view(projection);
+        for (const int size : {1, 13, 101}) {
+            const wave::Psf psf = uneven_psf(view, size);
+            const Image in = noise(view);
+            Image out(view.width, view.height, 3);
+            Image expected(view.width, view.height, 3);
+            GlareOptions direct;
+            direct.method = Method::kDirect;
+            Glare(view, 3, psf).apply(in, out);
+            Glare(view, 3, psf, direct).apply(in, expected);
+            expect_near(out, expected, 1e-5 * 1000);
+        }
+    }
+}
+
+TEST(Glare, OfAnIdealEyeIsThePicture) {
+    const View view = small_view();
+    wave::Psf psf;
+    psf.grid = wave::KernelGrid::square(view, 1);
+    psf.kernel = Image(1, 1, 3);
+    for (int c = 0; c < 3; ++c) psf.kernel.at(0, 0, c) = 1;
+    Image in = noise(view);
+    in.at(3, 3, 1) = -5;  // negative values are light as well
+    Image out(view.width, view.height, 3);
+    Glare(view, 3, psf).apply(in, out);
+    expect_near(out, in, 1e-3);
+}
+
+TEST(Glare, AccountsForEveryBitOfEnergy) {
+    for (const Projection projection : {Projection::kPerspective, Projection::kConstantPitch}) {
+        const View view = small_view(projection);
+        const Image in = noise(view);
+        Image out(view.width, view.height, 3);
+        GlareOptions options;
+        options.threshold = 50;
+        options.gain = 2.5F;
+        options.matte = true;
+        std::vector<float> matte(in.pixels(), 1.0F);
+        for (std::size_t i = 0; i < matte.size(); i += 3) matte[i] = 0.25F;
+        Glare glare(view, 3, uneven_psf(view, 61), options);
+        glare.apply(in, out, matte.data());
+        const Energy energy = glare.energy(in, out, matte.data());
+        EXPECT_NEAR((energy.out + energy.off_picture) / energy.in, 1, 1e-5);
+        EXPECT_GT(energy.off_picture, 0.01 * energy.in);
+    }
+}
+
+TEST(Glare, LeavesWhatIsBelowTheThreshold) {
+    const View view = small_view();
+    const Image in = noise(view);  // at most 1000
+    Image out(view.width, view.height, 3);
+    GlareOptions options;
+    options.threshold = 1000;
+    Glare(view, 3, uneven_psf(view, 31), options).apply(in, out);
+    expect_near(out, in, 0);
+}
+
+TEST(Glare, OfGainZeroIsThePicture) {
+    const View view = small_view();
+    const Image in = noise(view);
+    Image out(view.width, view.height, 3);
+    GlareOptions options;
+    options.gain = 0;
+    Glare(view, 3, uneven_psf(view, 31), options).apply(in, out);
+    expect_near(out, in, 0);
+}
+
+TEST(Glare, OfAMatteIsThatOfThePixelsItSelects) {
+    const View view = small_view();
+    const Image in = noise(view);
+    std::vector<float> matte(in.pixels());
+    matte[15 * 40 + 20] = 1;
+    Image only(view.width, view.height, 3);
+    for (int c = 0; c < 3; ++c) only.at(20, 15, c) = in.at(20, 15, c);
+    const wave::Psf psf = uneven_psf(view, 31);
+    Image glare_of_one(view.width, view.height, 3);
+    Glare(view, 3, psf).apply(only, glare_of_one);
+    GlareOptions options;
+    options.matte = true;
+    Image out(view.width, view.height, 3);
+    Glare(view, 3, psf, options).apply(in, out, matte.data());
+    Image expected = in;
+    for (int c = 0; c < 3; ++c) {
+        for (std::size_t i = 0; i < in.pixels(); ++i) {
+            expected.plane(c)[i] += glare_of_one.plane(c)[i] - only.plane(c)[i];
+        }
+    }
+    expect_near(out, expected, 1e-3);
+}
+
+TEST(Glare, WorksInPlace) {
+    const View view = small_view();
+    for (const float threshold : {0.0F, 20.0F}) {
+        GlareOptions options;
+        options.threshold = threshold;
+        Glare glare(view, 3, uneven_psf(view, 31), options);
+        Image image = noise(view);
+        Image expected(view.width, view.height, 3);
+        glare.apply(image, expected);
+        glare.apply(image, image);
+        expect_near(image, expected, 0);
+    }
+}
+
+TEST(Glare, RefusesWhatDoesNotFit) {
+    const View view = small_view();
+    const wave::Psf psf = uneven_psf(view, 5);
+    EXPECT_THROW(Glare(view, 2, psf), InvalidArgument);
+    EXPECT_THROW(Glare(View::from_fov(40, 30, 50, Projection::kPerspective), 3, psf),
+                 InvalidArgument);
+    EXPECT_THROW(Glare(small_view(Projection::kConstantPitch), 3, psf), InvalidArgument);
+    GlareOptions options;
+    options.threshold = -1;
+    EXPECT_THROW(Glare(view, 3, psf, options), InvalidArgument);
+    options.threshold = 0;
+    options.gain = std::nanf("");
+    EXPECT_THROW(Glare(view, 3, psf, options), InvalidArgument);
+    EXPECT_THROW(method_from_name("sprite"), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace aureole::glare
