@@ -167,7 +167,7 @@ TEST(EyePsfSlow, ComponentsHoldTheirEnergyWithinTheirBand) {
     for (const auto component : {Component::kBloom, Component::kHalo, Component::kStreaks}) {
         const wave::Psf psf = eye_component(component, eye, grid);
         for (const double off : psf.off_kernel_energy) {
-            EXPECT_GT(off, -1e-6);
+            EXPECT_GT(off, -1e-5);  // the boxes of add_spectral() tile the band to a few 1e-6
             EXPECT_LT(off, 0.05);
         }
     }

@@ -58,6 +58,26 @@ HWY_INLINE Complex add_scaled(const Complex& a, const Complex& b, float s) {
     const Vec v = hn::Set(D(), s);
     return {hn::MulAdd(b.re, v, a.re), hn::MulAdd(b.im, v, a.im)};
 }
+
+// A constant of a butterfly as the sum of two floats. Rounded to one float it would be wrong by the
+// same 2e-8 for every line, and every light would have faint ghosts a third or a fifth of the
+// padded picture away, which show in the dark around the sun.
+struct Constant {
+    constexpr Constant(double value)  // NOLINT(google-explicit-constructor)
+        : high(static_cast<float>(value)), low(static_cast<float>(value - high)) {}
+    float high;
+    float low;
+};
+HWY_INLINE Complex scale(const Complex& a, Constant s) {
+    return add_scaled(scale(a, s.low), a, s.high);
+}
+HWY_INLINE Complex add_scaled(const Complex& a, const Complex& b, Constant s) {
+    return add_scaled(add_scaled(a, b, s.low), b, s.high);
+}
+HWY_INLINE Complex sub_scaled(const Complex& a, const Complex& b, Constant s) {
+    return add_scaled(add_scaled(a, b, -s.low), b, -s.high);
+}
+
 HWY_INLINE Complex multiply(const Complex& a, const Complex& b) {
     return {hn::NegMulAdd(a.im, b.im, hn::Mul(a.re, b.re)),
             hn::MulAdd(a.re, b.im, hn::Mul(a.im, b.re))};
@@ -93,7 +113,7 @@ HWY_INLINE void butterfly(Complex (&x)[2]) {
 
 template <bool kInverse>
 HWY_INLINE void butterfly(Complex (&x)[3]) {
-    constexpr float kSin = 0.866025403784438647F;
+    constexpr Constant kSin = 0.86602540378443864676;
     const Complex sum = add(x[1], x[2]);
     const Complex turn = scale(rotate<kInverse>(sub(x[1], x[2])), kSin);
     const Complex middle = add_scaled(x[0], sum, -0.5F);
@@ -114,21 +134,24 @@ HWY_INLINE void butterfly(Complex (&x)[4]) {
     x[3] = sub(b, e);
 }
 
+// cos(2 pi / 5) and cos(4 pi / 5) are -1/4 +- sqrt(5)/4 (Winograd 1978).
 template <bool kInverse>
 HWY_INLINE void butterfly(Complex (&x)[5]) {
-    constexpr float kCos1 = 0.309016994374947424F;
-    constexpr float kCos2 = -0.809016994374947424F;
-    constexpr float kSin1 = 0.951056516295153572F;
-    constexpr float kSin2 = 0.587785252292473129F;
+    constexpr Constant kRoot = 0.55901699437494742410;
+    constexpr Constant kSin1 = 0.95105651629515357212;
+    constexpr Constant kSin2 = 0.58778525229247312917;
     const Complex sum1 = add(x[1], x[4]);
     const Complex sum2 = add(x[2], x[3]);
     const Complex dif1 = rotate<kInverse>(sub(x[1], x[4]));
     const Complex dif2 = rotate<kInverse>(sub(x[2], x[3]));
-    const Complex even1 = add_scaled(add_scaled(x[0], sum1, kCos1), sum2, kCos2);
-    const Complex even2 = add_scaled(add_scaled(x[0], sum1, kCos2), sum2, kCos1);
+    const Complex sum = add(sum1, sum2);
+    const Complex middle = add_scaled(x[0], sum, -0.25F);
+    const Complex split = scale(sub(sum1, sum2), kRoot);
+    const Complex even1 = add(middle, split);
+    const Complex even2 = sub(middle, split);
     const Complex odd1 = add_scaled(scale(dif1, kSin1), dif2, kSin2);
-    const Complex odd2 = add_scaled(scale(dif1, kSin2), dif2, -kSin1);
-    x[0] = add(x[0], add(sum1, sum2));
+    const Complex odd2 = sub_scaled(scale(dif1, kSin2), dif2, kSin1);
+    x[0] = add(x[0], sum);
     x[1] = add(even1, odd1);
     x[2] = add(even2, odd2);
     x[3] = sub(even2, odd2);
@@ -137,30 +160,27 @@ HWY_INLINE void butterfly(Complex (&x)[5]) {
 
 template <bool kInverse>
 HWY_INLINE void butterfly(Complex (&x)[7]) {
-    constexpr float kCos1 = 0.623489801858733531F;
-    constexpr float kCos2 = -0.222520933956314404F;
-    constexpr float kCos3 = -0.900968867902419126F;
-    constexpr float kSin1 = 0.781831482468029809F;
-    constexpr float kSin2 = 0.974927912181823607F;
-    constexpr float kSin3 = 0.433883739117558120F;
+    constexpr Constant kCos1 = 0.62348980185873353053;
+    constexpr Constant kCos2 = -0.22252093395631440429;
+    constexpr Constant kCos3 = -0.90096886790241912624;
+    constexpr Constant kSin1 = 0.78183148246802980871;
+    constexpr Constant kSin2 = 0.97492791218182360702;
+    constexpr Constant kSin3 = 0.43388373911755812048;
     const Complex sum1 = add(x[1], x[6]);
     const Complex sum2 = add(x[2], x[5]);
     const Complex sum3 = add(x[3], x[4]);
     const Complex dif1 = rotate<kInverse>(sub(x[1], x[6]));
     const Complex dif2 = rotate<kInverse>(sub(x[2], x[5]));
     const Complex dif3 = rotate<kInverse>(sub(x[3], x[4]));
-    const auto even = [&](float c1, float c2, float c3) HWY_ATTR {
+    const auto even = [&](Constant c1, Constant c2, Constant c3) HWY_ATTR {
         return add_scaled(add_scaled(add_scaled(x[0], sum1, c1), sum2, c2), sum3, c3);
-    };
-    const auto odd = [&](float s1, float s2, float s3) HWY_ATTR {
-        return add_scaled(add_scaled(scale(dif1, s1), dif2, s2), dif3, s3);
     };
     const Complex even1 = even(kCos1, kCos2, kCos3);
     const Complex even2 = even(kCos2, kCos3, kCos1);
     const Complex even3 = even(kCos3, kCos1, kCos2);
-    const Complex odd1 = odd(kSin1, kSin2, kSin3);
-    const Complex odd2 = odd(kSin2, -kSin3, -kSin1);
-    const Complex odd3 = odd(kSin3, -kSin1, kSin2);
+    const Complex odd1 = add_scaled(add_scaled(scale(dif1, kSin1), dif2, kSin2), dif3, kSin3);
+    const Complex odd2 = sub_scaled(sub_scaled(scale(dif1, kSin2), dif2, kSin3), dif3, kSin1);
+    const Complex odd3 = add_scaled(sub_scaled(scale(dif1, kSin3), dif2, kSin1), dif3, kSin2);
     x[0] = add(x[0], add(sum1, add(sum2, sum3)));
     x[1] = add(even1, odd1);
     x[2] = add(even2, odd2);
@@ -172,7 +192,7 @@ HWY_INLINE void butterfly(Complex (&x)[7]) {
 
 template <bool kInverse>
 HWY_INLINE void butterfly(Complex (&x)[8]) {
-    constexpr float kHalfRoot = 0.707106781186547524F;
+    constexpr Constant kHalfRoot = 0.70710678118654752440;
     Complex even[4] = {x[0], x[2], x[4], x[6]};
     Complex odd[4] = {x[1], x[3], x[5], x[7]};
     butterfly<kInverse>(even);

@@ -57,7 +57,8 @@ float car_distance(const Car& car, Vec3 p) {
     const float crown = 1 + 0.22F * square(p.y - 0.66F);
     const Vec3 q = {p.x * taper * crown, p.y - 0.615F + fall, p.z};
     float d = rounded_box(q, {0.885F, 0.335F, 2.12F}, 0.17F);
-    d = smooth_min(d, cabin(car, p), 0.07F);
+    // The cabin begins at 0.77 m.
+    if (d > 0.70F - p.y) d = smooth_min(d, cabin(car, p), 0.07F);
     // Above the wheels the body is always nearer.
     if (p.y < 0.8F) {
         for (const float wheel_z : kWheelZ) {
@@ -68,7 +69,7 @@ float car_distance(const Car& car, Vec3 p) {
                 d, smooth_max(r - kWheelRadius, std::abs(std::abs(p.x) - 0.755F) - 0.105F, 0.04F));
         }
     }
-    return 0.88F * d;
+    return 0.92F * d;
 }
 
 Vec3 shade_car(const Street& street, const Car& car, const SurfacePoint& at) {

@@ -66,7 +66,7 @@ struct Frame {
         return building.along * v3.x + Vec3{0, v3.y, 0} + building.normal * v3.z;
     }
     Vec3 lit(Vec3 albedo, Vec3 normal) const {
-        return albedo * irradiance(street, at.position, normal) * kInversePi;
+        return albedo * at.cache->at(street, building, at.position, normal) * kInversePi;
     }
     // Moulding: a profile that leans out of the wall by `lean` (up positive) catches other light.
     Vec3 moulding(Vec3 albedo, float lean) const {

@@ -117,7 +117,7 @@ void march(const Ray& ray, Span span, float scale, const Distance& distance, Kin
     for (int step = 0; step < 64 && t < end; ++step) {
         const Vec3 p = ray.at(t);
         const float d = distance(p);
-        if (d < 1e-3F + 2e-4F * t * scale) {
+        if (d < 1e-3F + 3e-4F * t * scale) {
             // Gradient by a tetrahedron of differences.
             constexpr float kStep = 4e-3F;
             constexpr Vec3 kCorners[] = {{1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {1, 1, 1}};

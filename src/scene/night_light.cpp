@@ -1,5 +1,7 @@
 // How the lights of the street fall on surfaces and mirror in them.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "scene/builders.h"
 #include "scene/night_street.h"
@@ -7,31 +9,34 @@
 namespace aureole::scene::night {
 namespace {
 
+// A bowl lamp: a little wider than Lambert's law, to light the road between two posts, with some
+// spill above the horizontal.
+inline float lamp_lobe(Vec3 direction) {
+    const float down = -direction.y;
+    return smoothstep(-0.25F, 0.55F, down) * (1.15F - 0.25F * down);
+}
+
+// The part of a dipped beam below its cut-off at the horizontal.
+inline float dip(float up) { return 1.2F * smoothstep(0.004F, -0.02F, up); }
+
+// A dipped beam: bright just below the horizontal, a wide weak spill above.
+inline float headlamp_lobe(const Light& light, Vec3 direction) {
+    const float ahead = direction.z * light.axis.z;  // beams run along the road
+    if (ahead <= 0.05F) return 0;
+    const float inverse = 1 / ahead;
+    const float up = direction.y * inverse;
+    const float aside2 = square(direction.x * inverse);
+    if (up > 0.7F || aside2 > 0.8F) return 0;
+    const float spread = 1 / (1 + aside2 * (20.7F + 169 * aside2)) * square(1 - 1.25F * aside2);
+    if (up > 0) return spread * (1 - up * 1.43F) / square(1 + up * 12.5F) + spread * dip(up);
+    return spread * (1 + dip(up) / square(1 - up * 10));
+}
+
 // Intensity towards `direction` (unit, from the light) relative to Light::intensity_cd.
-float lobe(const Light& light, Vec3 direction) {
-    switch (light.lobe) {
-        case Lobe::kLamp: {
-            // A bowl: a little wider than Lambert's law to light the road between two posts, some
-            // spill above the horizontal.
-            const float down = -direction.y;
-            return smoothstep(-0.25F, 0.55F, down) * (1.15F - 0.25F * down);
-        }
-        case Lobe::kHeadlamp: {
-            const float ahead = dot(direction, light.axis);
-            if (ahead <= 0.05F) return 0;
-            const float up = direction.y / ahead;
-            const float aside = direction.x / ahead;
-            const float spread = 1 / (1 + square(aside / 0.22F) * (1 + square(aside / 0.35F)));
-            if (spread < 0.01F || up > 0.7F) return 0;
-            const float spill = 1 / square(1 + std::max(up, 0.0F) / 0.08F);
-            const float beam =
-                1.2F * smoothstep(0.004F, -0.02F, up) / square(1 + std::max(-up, 0.0F) / 0.10F);
-            return spread * (spill + beam);
-        }
-        case Lobe::kCosine:
-            return std::max(dot(direction, light.axis), 0.0F);
-    }
-    return 0;
+inline float lobe(const Light& light, Vec3 direction) {
+    if (light.lobe == Lobe::kLamp) return lamp_lobe(direction);
+    if (light.lobe == Lobe::kHeadlamp) return headlamp_lobe(light, direction);
+    return std::max(dot(direction, light.axis), 0.0F);
 }
 
 // How far a light matters beside the others; there it has faded to nothing.
@@ -56,7 +61,15 @@ float fade(const Light& light, float d2) {
 }  // namespace
 
 void sort_lights(Street& street) {
-    for (Light& light : street.lights) light.reach_m = reach(light);
+    for (Light& light : street.lights) {
+        light.reach_m = reach(light);
+        light.candela = luminance(light.intensity_cd);
+    }
+    std::stable_sort(street.lights.begin(), street.lights.end(),
+                     [](const Light& a, const Light& b) { return a.lobe < b.lobe; });
+    std::copy_if(street.lights.begin(), street.lights.end(),
+                 std::back_inserter(street.lights_mirrored),
+                 [](const Light& light) { return light.in_reflection; });
     const int bins = static_cast<int>((kStreetEndZ + 40) / kBinLength);
     street.lights_near.assign(static_cast<std::size_t>(bins), {});
     for (int i = 0; i < bins; ++i) {
@@ -107,28 +120,42 @@ Vec3 irradiance(const Street& street, Vec3 position, Vec3 normal) {
     return sum;
 }
 
+Vec3 IrradianceCache::at(const Street& street, const Building& building, Vec3 position,
+                         Vec3 normal) {
+    for (const Entry& entry : entries_) {
+        if (entry.building == &building && dot(entry.normal, normal) > 0.9999F) {
+            return entry.irradiance;
+        }
+    }
+    Entry& entry = entries_[next_];
+    next_ = (next_ + 1) % kEntries;
+    entry = {&building, normal, irradiance(street, position, normal)};
+    return entry.irradiance;
+}
+
 Vec3 glints(const Street& street, Vec3 position, Vec3 normal, Vec3 to_eye, float alpha, float f0,
             bool on_road) {
     const float cos_eye = dot(normal, to_eye);
     if (cos_eye <= 0) return {};
     Vec3 sum;
     // Far lights mirror in the road just as near ones do; on upright surfaces they hardly show.
-    for (const Light& light : on_road ? street.lights : street.lights_at(position.z)) {
-        if (on_road && !light.in_reflection) continue;
+    for (const Light& light : on_road ? street.lights_mirrored : street.lights_at(position.z)) {
         const Vec3 difference = light.position - position;
         const float d2 = dot(difference, difference);
         const float inverse = 1 / std::sqrt(d2);
         const Vec3 to_light = difference * inverse;
         const float cos_light = dot(normal, to_light);
         if (cos_light <= 0) continue;
-        const float strength = lobe(light, to_light * -1);
-        if (strength <= 0) continue;
         const Vec3 half = normalize(to_light + to_eye);
         const float cos_half = dot(normal, half);
         // The source's own size widens the lobe (Karis 2013, "Real Shading in Unreal Engine 4").
         const float wide = std::min(alpha + light.radius_m * inverse * 0.5F, 1.0F);
         const float a2 = wide * wide;
         const float distribution = a2 / (3.14159265F * square(cos_half * cos_half * (a2 - 1) + 1));
+        // Too far from the mirror direction to be seen.
+        if (light.candela * distribution * inverse * inverse < 3e-4F * cos_eye) continue;
+        const float strength = lobe(light, to_light * -1);
+        if (strength <= 0) continue;
         const float schlick = 1 - std::max(dot(half, to_eye), 0.0F);
         const float fresnel = f0 + (1 - f0) * square(square(schlick)) * schlick;
         // Height-correlated Smith masking with the cosines' denominator (Heitz 2014).

@@ -8,9 +8,9 @@
 namespace aureole::scene::night {
 namespace {
 
-constexpr int kSamples = 4;
+constexpr int kSamples = 3;
 // The picture reaches below the visible one, for reflections that ripples fetch from there.
-constexpr double kExtraRows = 0.25;
+constexpr double kExtraRows = 0.10;
 // Blur across, in columns: about what alpha = 0.2 does at ten metres.
 constexpr int kBlurRadius = 7;
 
@@ -41,6 +41,7 @@ MirrorPicture::MirrorPicture(const Street& street, const std::vector<Object>& ob
         const int y = static_cast<int>(row);
         for (int x = 0; x < kColumns; ++x) {
             Vec3 sum;
+            IrradianceCache cache;
             for (int i = 0; i < kSamples; ++i) {
                 const auto offset = pixel_sample(x, y, i);
                 Ray ray = below.ray(x + offset[0], y + offset[1]);
@@ -50,7 +51,8 @@ MirrorPicture::MirrorPicture(const Street& street, const std::vector<Object>& ob
                 const float t = -ray.origin.y / ray.direction.y;
                 ray.origin = ray.at(std::min(t, kStreetEndZ));
                 ray.origin.y = std::max(ray.origin.y, 0.0F);
-                sum += look(street, objects, tiles.at(x, y), ray, below.pixel_size() * 2).radiance;
+                sum += look(street, objects, tiles.at(x, y), ray, below.pixel_size() * 2, cache)
+                           .radiance;
             }
             sharp[row * kColumns + static_cast<std::size_t>(x)] = sum * (1.0F / kSamples);
         }

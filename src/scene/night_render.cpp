@@ -14,7 +14,7 @@ struct Refinement {
     float contrast;
     int samples;
 };
-constexpr Refinement kRefinements[] = {{0.03F, 4}, {0.12F, 8}};
+constexpr Refinement kRefinements[] = {{0.05F, 4}, {0.15F, 8}};
 
 // Brightness as an eye adapted to the street would rank it, for deciding where edges are.
 float tone(Vec3 radiance) {
@@ -67,7 +67,7 @@ Tiles::Tiles(const std::vector<Object>& objects, const Camera& camera, bool mirr
 }
 
 Seen look(const Street& street, const std::vector<Object>& objects, const std::vector<int>& which,
-          const Ray& ray, float pixel_size) {
+          const Ray& ray, float pixel_size, IrradianceCache& cache) {
     const float to_ground = ray.direction.y < 0 ? -ray.origin.y / ray.direction.y : 1e9F;
     const Hit hit = trace(street, objects, which, ray, to_ground);
     const Vec3 direction = normalize(ray.direction);
@@ -75,7 +75,7 @@ Seen look(const Street& street, const std::vector<Object>& objects, const std::v
         if (ray.direction.y < 0) return {Kind::kGround, {}};
         return {Kind::kSky, sky_radiance(direction)};
     }
-    const SurfacePoint at{ray.at(hit.t), hit.normal, direction, hit.t * pixel_size};
+    const SurfacePoint at{ray.at(hit.t), hit.normal, direction, hit.t * pixel_size, &cache};
     const auto index = static_cast<std::size_t>(hit.index);
     switch (hit.kind) {
         case Kind::kBuilding:
@@ -98,6 +98,7 @@ void render_solids(const Street& street, const std::vector<Object>& objects, con
         const int y = static_cast<int>(row);
         for (int x = 0; x < picture.width(); ++x) {
             Vec3 sum;
+            IrradianceCache cache;
             int ground = 0;
             int sky = 0;
             int count = 0;
@@ -108,7 +109,7 @@ void render_solids(const Street& street, const std::vector<Object>& objects, con
                     const auto offset = pixel_sample(x, y, count);
                     const Seen seen =
                         look(street, objects, tiles.at(x, y),
-                             camera.ray(x + offset[0], y + offset[1]), camera.pixel_size());
+                             camera.ray(x + offset[0], y + offset[1]), camera.pixel_size(), cache);
                     // The ground counts as a brightness of its own, so that its edges are found.
                     const float brightness =
                         seen.kind == Kind::kGround ? -0.2F : tone(seen.radiance);

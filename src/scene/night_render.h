@@ -28,7 +28,7 @@ struct Seen {
     Vec3 radiance;
 };
 Seen look(const Street& street, const std::vector<Object>& objects, const std::vector<int>& which,
-          const Ray& ray, float pixel_size);
+          const Ray& ray, float pixel_size, IrradianceCache& cache);
 
 // Everything but lights and stars. `sky_share` receives the part of each pixel that is sky.
 void render_solids(const Street& street, const std::vector<Object>& objects, const Camera& camera,

@@ -29,7 +29,9 @@ struct Light {
     Lobe lobe = Lobe::kCosine;
     float radius_m = 0.1F;      // softens reflections and the near field
     bool in_reflection = true;  // false: the mirrored picture of the street already shows it
-    float reach_m = 0;          // set by sort_lights()
+    // Set by sort_lights():
+    float reach_m = 0;  // beyond it the light is left out
+    float candela = 0;  // luminance of intensity_cd
 };
 
 // A visible light source: an ellipse across the line of sight, or a rectangle.
@@ -95,13 +97,14 @@ struct Street {
     std::vector<Light> lights;  // what illuminates
     // The lights that matter to surfaces at a depth: kBinLength metres of z per list.
     std::vector<std::vector<Light>> lights_near;
+    std::vector<Light> lights_mirrored;  // those that the road reflects as points
     const std::vector<Light>& lights_at(float z) const;
     std::vector<Luminaire> luminaires;  // what is seen shining
 };
 
 Street build_street(std::uint64_t seed);
 
-// Fills Street::lights_near from Street::lights.
+// Fills the other lists of lights from Street::lights.
 void sort_lights(Street& street);
 
 // --- Geometry -------------------------------------------------------------------------------
@@ -146,11 +149,29 @@ Vec3 sky_radiance(Vec3 direction);
 
 // --- Surfaces -------------------------------------------------------------------------------
 
+// Irradiances found for the samples of one pixel: those that fall on one plane of one house are
+// centimetres apart and share them.
+class IrradianceCache {
+  public:
+    Vec3 at(const Street& street, const Building& building, Vec3 position, Vec3 normal);
+
+  private:
+    struct Entry {
+        const Building* building = nullptr;
+        Vec3 normal;
+        Vec3 irradiance;
+    };
+    static constexpr int kEntries = 6;
+    Entry entries_[kEntries];
+    int next_ = 0;
+};
+
 struct SurfacePoint {
     Vec3 position;
     Vec3 normal;
     Vec3 direction;   // of view, unit
     float footprint;  // of a pixel, across the line of sight, m
+    IrradianceCache* cache;
 };
 
 Vec3 shade_building(const Street& street, const Building& building, const SurfacePoint& at,
