@@ -76,29 +76,30 @@ void load_row(const ConstImageView& in, const float* weights, int x0, int y, int
     }
 }
 
-void store_row(const ImageView& out, const float* weights, int x0, int y, int row,
-               std::size_t channel_floats, float* lines) {
-    const D d;
+void divide_row(const ImageView& out, const float* weights, int x0, int y,
+                std::size_t channel_floats, float* lines) {
+    const float* w = weights + static_cast<std::ptrdiff_t>(y) * out.width + x0;
     const int count = columns_at(out, x0);
-    if (weights != nullptr) {
-        const float* w = weights + static_cast<std::ptrdiff_t>(y) * out.width + x0;
-        for (int c = 0; c < out.channels; ++c) {
-            float* to = element(lines, row) + channel_floats * static_cast<std::size_t>(c);
-            for (int l = 0; l < count; ++l) to[l] /= w[l];
-        }
+    for (int c = 0; c < out.channels; ++c) {
+        float* to = element(lines, y) + channel_floats * static_cast<std::size_t>(c);
+        for (int l = 0; l < count; ++l) to[l] /= w[l];
     }
-    const bool whole = count == 2 * kLanes;
+}
+
+void store_row(const ImageView& out, int x0, int y, std::size_t channel_floats,
+               const float* lines) {
+    const D d;
+    const bool whole = columns_at(out, x0) == 2 * kLanes;
+    const float* from = lines + static_cast<std::size_t>(y) * kElement;
     if (whole && out.channels == 3 && out.pixel_stride == 3 && out.channel_stride == 1) {
         float* to = &out.at(x0, y, 0);
-        for (int half = 0; half < 2; ++half, to += 3 * kLanes) {
-            const float* from = element(lines, row) + half * kLanes;
+        for (int half = 0; half < 2; ++half, to += 3 * kLanes, from += kLanes) {
             hn::StoreInterleaved3(hn::Load(d, from), hn::Load(d, from + channel_floats),
                                   hn::Load(d, from + 2 * channel_floats), d, to);
         }
         return;
     }
-    for (int c = 0; c < out.channels; ++c, lines += channel_floats) {
-        const float* from = element(lines, row);
+    for (int c = 0; c < out.channels; ++c, from += channel_floats) {
         if (whole && out.pixel_stride == 1) {
             float* to = &out.at(x0, y, c);
             hn::StoreU(hn::Load(d, from), d, to);
@@ -202,12 +203,15 @@ void columns_in(const ColumnPass& pass, const ConstImageView& in, int batch, flo
         load_row(in, pass.weights, x0, y, row, channel_floats, lines);
     }
     for (int c = 0; c < in.channels; ++c, lines += channel_floats) {
+        const int lower = pass.lower_column - x0;
+        if (lower >= 0 && lower < 2 * kLanes) lines[lower] -= pass.lower_by;
         forward_line(*pass.plan, lines, valid, spectrum);
         split_into_slabs(pass, c, x0, spectrum);
     }
 }
 
-void columns_out(const ColumnPass& pass, const ImageView& out, int batch, float* scratch) {
+void columns_out(const ColumnPass& pass, const ConstImageView& in, const float* peaks,
+                 const ImageView& out, int batch, float* scratch) {
     const int x0 = batch * 2 * kLanes;
     float* spectrum = scratch;
     float* lines = element(scratch, pass.plan->length);
@@ -217,8 +221,16 @@ void columns_out(const ColumnPass& pass, const ImageView& out, int batch, float*
         inverse_line(*pass.plan, spectrum, lines + channel_floats * static_cast<std::size_t>(c),
                      out.height);
     }
+    float* input = lines + channel_floats * static_cast<std::size_t>(out.channels);
     for (int y = 0; y < out.height; ++y) {
-        store_row(out, pass.weights, x0, y, y, channel_floats, lines);
+        if (pass.weights != nullptr) divide_row(out, pass.weights, x0, y, channel_floats, lines);
+        load_row(in, nullptr, x0, y, 0, kElement, input);
+        for (int c = 0; c < out.channels; ++c) {
+            const auto channel = static_cast<std::size_t>(c);
+            float* line = element(lines, y) + channel * channel_floats;
+            store(add_scaled(load(line), load(input + channel * kElement), peaks[c]), line);
+        }
+        store_row(out, x0, y, channel_floats, lines);
     }
 }
 

@@ -18,6 +18,8 @@ struct ColumnPass {
     const LinePlan* plan;  // down the columns
     int first_row;         // row 0 of the picture is put at this row of the transform, cyclically
     int columns;           // of a slab that exist; columns_in() stores no others
+    float lower_by;        // columns_in(): taken off the sample at transform row 0 ...
+    int lower_column;      // ... of this picture column; -1: of none
     const float* weights;  // width * height, or null
     float* slabs;
     std::size_t slab_floats;  // one slab, padding included
@@ -33,9 +35,11 @@ struct RowPass {
 struct ConvolverKernels {
     int lanes;
     // Picture columns [2 V batch, 2 V (batch + 1)) of every channel into the slabs.
-    // Scratch: (channels + 1) * 2 V * plan length floats.
+    // Scratch: (channels + 1) * 2 V * (plan length + 1) floats.
     void (*columns_in)(const ColumnPass& pass, const ConstImageView& in, int batch, float* scratch);
-    void (*columns_out)(const ColumnPass& pass, const ImageView& out, int batch, float* scratch);
+    // Back into the picture, plus peaks[channel] times the input.
+    void (*columns_out)(const ColumnPass& pass, const ConstImageView& in, const float* peaks,
+                        const ImageView& out, int batch, float* scratch);
     // Convolves a slab with the kernel's spectrum, in place. Scratch: 2 V * plan length floats.
     void (*convolve_rows)(const RowPass& pass, float* slab, const float* spectrum, float* scratch);
     // Turns a slab of the kernel into its spectrum, in place: column x of the slab is put at column
