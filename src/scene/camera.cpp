@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "aureole/base/units.h"
-#include "scene/noise.h"
 
 namespace aureole::scene {
 
@@ -34,12 +33,9 @@ std::optional<Pixel> Camera::project_direction(Vec3 direction) const {
 
 double Camera::horizon_y() const { return view_.axis_y + focal_px_ * ahead_.y / ahead_.z; }
 
-std::array<double, 2> pixel_sample(int x, int y, int index) {
-    const std::uint32_t hash = hash_bits(x, y, 0x51ed27);
-    const double shift_x = (hash & 0xffffU) / 65536.0;
-    const double shift_y = (hash >> 16U) / 65536.0;
-    const double u = shift_x + 0.7548776662466927 * (index + 1);
-    const double v = shift_y + 0.5698402909980532 * (index + 1);
+std::array<double, 2> sample_offset(int index) {
+    const double u = 0.25 + 0.7548776662466927 * index;
+    const double v = 0.25 + 0.5698402909980532 * index;
     return {u - std::floor(u), v - std::floor(v)};
 }
 

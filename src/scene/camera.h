@@ -44,8 +44,8 @@ class Camera {
     double focal_px_;
 };
 
-// Stratified positions within a pixel (R2 sequence of Roberts 2018, shifted by a hash of the
-// pixel), the same for every run. Index from 0.
-std::array<double, 2> pixel_sample(int x, int y, int index);
+// Evenly spread positions within a pixel, [0, 1) each way, the same in every pixel: the R2 sequence
+// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"). Index from 0.
+std::array<double, 2> sample_offset(int index);
 
 }  // namespace aureole::scene

@@ -84,9 +84,15 @@ Vec3 shade_car(const Street& street, const Car& car, const SurfacePoint& at) {
     if (on_wheel) {
         const float r = std::min(std::hypot(p.y - kWheelRadius, p.z - kWheelZ[0]),
                                  std::hypot(p.y - kWheelRadius, p.z - kWheelZ[1]));
-        const bool rim = r < 0.20F && std::abs(p.x) > 0.8F;
-        return shade_matte(street, at, rim ? Vec3{0.3F, 0.3F, 0.3F} : Vec3{0.015F, 0.015F, 0.015F},
-                           rim ? 0.6F : 0.15F);
+        // Five spokes on a dark disc.
+        const float wheel_z =
+            std::abs(p.z - kWheelZ[0]) < std::abs(p.z - kWheelZ[1]) ? kWheelZ[0] : kWheelZ[1];
+        const float angle = std::atan2(p.y - kWheelRadius, p.z - wheel_z);
+        const bool spoke = r < 0.06F || r > 0.185F || std::cos(5 * angle) > 0.25F;
+        const bool rim = r < 0.215F && std::abs(p.x) > 0.8F;
+        const Vec3 albedo = rim ? (spoke ? Vec3{0.17F, 0.17F, 0.18F} : Vec3{0.02F, 0.02F, 0.02F})
+                                : Vec3{0.015F, 0.015F, 0.015F};
+        return shade_matte(street, at, albedo, rim && spoke ? 0.4F : 0.1F);
     }
 
     // Glass: the upper band of the cabin, but for pillars.
@@ -103,15 +109,16 @@ Vec3 shade_car(const Street& street, const Car& car, const SurfacePoint& at) {
         }
     }
     Vec3 albedo = car.paint;
-    float gloss = 1;
+    float gloss = 0.30F;
     float f0 = 0.045F;
-    float alpha = 0.14F;
+    float alpha = 0.20F;
     if (glass) {
         albedo = {0.004F, 0.004F, 0.005F};
         alpha = 0.05F;
+        gloss = 0.8F;
     } else if (p.y < 0.36F || (std::abs(n.z) > 0.5F && p.y < 0.46F)) {
         albedo = {0.02F, 0.02F, 0.02F};  // bumpers and sills
-        gloss = 0.35F;
+        gloss = 0.2F;
         alpha = 0.3F;
     }
     const bool rear = n.z < -0.5F;

@@ -99,12 +99,14 @@ float person_distance(const Person& person, Vec3 p) {
         return length(pa - ba * h) - mix(radius_a, radius_b, h);
     };
     const float stride = person.stride;
-    float d = length(p - Vec3{0, 0.93F, 0}) - 0.062F;
-    d = std::min(d, segment({0, 0.80F, 0}, {0, 0.46F, 0}, 0.105F, 0.125F));
-    d = std::min(d, segment({0.05F, 0.46F, 0}, {0.05F, 0.02F, stride}, 0.068F, 0.035F));
-    d = std::min(d, segment({-0.05F, 0.46F, 0}, {-0.05F, 0.02F, -stride}, 0.068F, 0.035F));
-    d = std::min(d, segment({0.13F, 0.78F, 0}, {0.15F, 0.48F, -stride}, 0.042F, 0.03F));
-    d = std::min(d, segment({-0.13F, 0.78F, 0}, {-0.15F, 0.48F, stride}, 0.042F, 0.03F));
+    float d = length(p - Vec3{0, 0.93F, 0}) - 0.060F;
+    d = std::min(d, segment({0, 0.90F, 0}, {0, 0.80F, 0}, 0.034F, 0.040F));
+    d = std::min(d, segment({-0.085F, 0.785F, 0}, {0.085F, 0.785F, 0}, 0.048F, 0.048F));
+    d = std::min(d, segment({0, 0.76F, 0}, {0, 0.47F, 0}, 0.092F, 0.102F));
+    d = std::min(d, segment({0.045F, 0.46F, 0}, {0.05F, 0.03F, stride}, 0.062F, 0.032F));
+    d = std::min(d, segment({-0.045F, 0.46F, 0}, {-0.05F, 0.03F, -stride}, 0.062F, 0.032F));
+    d = std::min(d, segment({0.115F, 0.775F, 0}, {0.132F, 0.47F, -stride}, 0.036F, 0.024F));
+    d = std::min(d, segment({-0.115F, 0.775F, 0}, {-0.132F, 0.47F, stride}, 0.036F, 0.024F));
     return d * person.height;
 }
 

@@ -103,7 +103,7 @@ Vec3 sky_radiance(Vec3 direction) {
 
 Vec3 irradiance(const Street& street, Vec3 position, Vec3 normal) {
     // From the sky and from walls that the lamps light: constant but for which way a surface faces.
-    constexpr Vec3 kAmbient = {0.46F, 0.38F, 0.33F};
+    constexpr Vec3 kAmbient = {1.02F, 0.84F, 0.76F};
     Vec3 sum = kAmbient * (0.65F + 0.35F * normal.y);
     for (const Light& light : street.lights_at(position.z)) {
         const Vec3 to_light = light.position - position;

@@ -43,7 +43,7 @@ MirrorPicture::MirrorPicture(const Street& street, const std::vector<Object>& ob
             Vec3 sum;
             IrradianceCache cache;
             for (int i = 0; i < kSamples; ++i) {
-                const auto offset = pixel_sample(x, y, i);
+                const auto offset = sample_offset(i);
                 Ray ray = below.ray(x + offset[0], y + offset[1]);
                 ray.direction.y = std::max(-ray.direction.y, 1e-5F);
                 ray.origin.y = -ray.origin.y;

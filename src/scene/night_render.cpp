@@ -3,18 +3,10 @@
 #include <cmath>
 
 #include "aureole/base/parallel.h"
-#include "scene/noise.h"
+#include "scene/adaptive.h"
 
 namespace aureole::scene::night {
 namespace {
-
-constexpr int kFirstSamples = 4;
-// Where brightness varies within a pixel by more than the first figure, more samples are taken.
-struct Refinement {
-    float contrast;
-    int samples;
-};
-constexpr Refinement kRefinements[] = {{0.05F, 4}, {0.15F, 8}};
 
 // Brightness as an eye adapted to the street would rank it, for deciding where edges are.
 float tone(Vec3 radiance) {
@@ -91,49 +83,34 @@ Seen look(const Street& street, const std::vector<Object>& objects, const std::v
     }
 }
 
-void render_solids(const Street& street, const std::vector<Object>& objects, const Camera& camera,
-                   const MirrorPicture& mirror, Image& picture, Image& sky_share) {
+void render_street(const Street& street, const std::vector<Object>& objects, const Camera& camera,
+                   Image& picture, Image& sky_share) {
     const Tiles tiles(objects, camera, false);
+    const MirrorPicture mirror(street, objects, camera);
+    constexpr int kSky = 0;
+    constexpr int kGround = 1;
+    Image shares(picture.width(), picture.height(), 2);
+    render_adaptive<IrradianceCache>(
+        [&](double x, double y, IrradianceCache& cache) {
+            const Seen seen =
+                look(street, objects, tiles.at(static_cast<int>(x), static_cast<int>(y)),
+                     camera.ray(x, y), camera.pixel_size(), cache);
+            if (seen.kind == Kind::kSky) return Sample{seen.radiance, tone(seen.radiance), kSky};
+            // A brightness of its own, so that the edges of the ground are found.
+            if (seen.kind == Kind::kGround) return Sample{{}, -0.3F, kGround};
+            return Sample{seen.radiance, tone(seen.radiance), -1};
+        },
+        picture, shares);
     parallel_for(static_cast<std::size_t>(picture.height()), [&](std::size_t row, int) {
         const int y = static_cast<int>(row);
         for (int x = 0; x < picture.width(); ++x) {
-            Vec3 sum;
-            IrradianceCache cache;
-            int ground = 0;
-            int sky = 0;
-            int count = 0;
-            float low = 1e9F;
-            float high = -1e9F;
-            const auto sample = [&](int samples) {
-                for (int i = 0; i < samples; ++i, ++count) {
-                    const auto offset = pixel_sample(x, y, count);
-                    const Seen seen =
-                        look(street, objects, tiles.at(x, y),
-                             camera.ray(x + offset[0], y + offset[1]), camera.pixel_size(), cache);
-                    // The ground counts as a brightness of its own, so that its edges are found.
-                    const float brightness =
-                        seen.kind == Kind::kGround ? -0.2F : tone(seen.radiance);
-                    low = std::min(low, brightness);
-                    high = std::max(high, brightness);
-                    sum += seen.radiance;
-                    ground += seen.kind == Kind::kGround ? 1 : 0;
-                    sky += seen.kind == Kind::kSky ? 1 : 0;
-                }
-            };
-            sample(kFirstSamples);
-            for (const Refinement& more : kRefinements) {
-                if (high - low > more.contrast) sample(more.samples);
-            }
-            const float share = 1 / static_cast<float>(count);
-            Vec3 out = sum * share;
-            if (ground > 0) {
-                out += ground_radiance(street, mirror, camera, x + 0.5, y + 0.5) *
-                       (static_cast<float>(ground) * share);
-            }
-            picture.at(x, y, 0) = out.x;
-            picture.at(x, y, 1) = out.y;
-            picture.at(x, y, 2) = out.z;
-            sky_share.at(x, y) = static_cast<float>(sky) * share;
+            sky_share.at(x, y) = shares.at(x, y, kSky);
+            const float ground = shares.at(x, y, kGround);
+            if (ground <= 0) continue;
+            const Vec3 add = ground_radiance(street, mirror, camera, x + 0.5, y + 0.5) * ground;
+            picture.at(x, y, 0) += add.x;
+            picture.at(x, y, 1) += add.y;
+            picture.at(x, y, 2) += add.z;
         }
     });
 }

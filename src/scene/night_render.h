@@ -31,7 +31,7 @@ Seen look(const Street& street, const std::vector<Object>& objects, const std::v
           const Ray& ray, float pixel_size, IrradianceCache& cache);
 
 // Everything but lights and stars. `sky_share` receives the part of each pixel that is sky.
-void render_solids(const Street& street, const std::vector<Object>& objects, const Camera& camera,
-                   const MirrorPicture& mirror, Image& picture, Image& sky_share);
+void render_street(const Street& street, const std::vector<Object>& objects, const Camera& camera,
+                   Image& picture, Image& sky_share);
 
 }  // namespace aureole::scene::night

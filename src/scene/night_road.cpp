@@ -135,7 +135,11 @@ Vec3 ground_radiance(const Street& street, const MirrorPicture& mirror, const Ca
     const Vec3 p = ray.at(t);
     const Vec3 to_eye = normalize(ray.direction) * -1;
     const float footprint = t * camera.pixel_size();
-    const Ground g{p.x, p.z, footprint, footprint / to_eye.y};
+    // A step down the picture moves along the line of sight: mostly in z, but in x as well.
+    const float along = footprint / to_eye.y;
+    const float level = std::hypot(to_eye.x, to_eye.z);
+    const Ground g{p.x, p.z, footprint + along * std::abs(to_eye.x) / level,
+                   along * std::abs(to_eye.z) / level};
     const Material m = ground_material(g);
 
     // Slopes of the surface: what the pixel resolves moves the reflection, the rest blurs it.

@@ -4,11 +4,9 @@
 
 #include <cmath>
 
-#include "aureole/base/parallel.h"
 #include "scene/builders.h"
 #include "scene/coverage.h"
 #include "scene/night_render.h"
-#include "scene/night_road.h"
 #include "scene/stars.h"
 
 namespace aureole::scene {
@@ -65,11 +63,10 @@ Scene make_night_street(const SceneOptions& options, const View& view) {
     const Street street = build_street(options.seed);
     const std::vector<Object> objects = list_objects(street);
     const Camera camera(view, kEye, kEyePitchDeg);
-    const MirrorPicture mirror(street, objects, camera);
 
-    Scene scene{Image(view.width, view.height, 3), view, 0, 5};
+    Scene scene{Image(view.width, view.height, 3), view, 0, 4};
     Image sky_share(view.width, view.height, 1);
-    render_solids(street, objects, camera, mirror, scene.rgb, sky_share);
+    render_street(street, objects, camera, scene.rgb, sky_share);
     scene.adaptation_cd_m2 = mean_luminance(scene.rgb, 0.99);
     add_sky_stars(options, camera, sky_share, scene.rgb);
     add_luminaires(street, objects, camera, scene.rgb);

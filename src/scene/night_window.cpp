@@ -60,11 +60,17 @@ Vec3 window_light(const Building& building, int column, int row, float u, float 
                   float height, Vec3 direction, float footprint) {
     const int seed = building.seed * 131 + row * 17;
     const auto random = [&](int what) { return hash_uniform(column, seed, what); };
-    // Glass mirrors a little of the dark street.
-    const Vec3 dark = Vec3{0.9F, 0.85F, 0.8F} * 0.012F;
+    // Glass mirrors a little of the street and more of the sky, the more the flatter one looks.
+    const float grazing = 1 - std::min(-direction.z, 1.0F);
+    const float fresnel = 0.06F + 0.9F * square(square(grazing)) * grazing;
+    const Vec3 across =
+        Vec3{1.15F, 0.92F, 0.72F} * (0.35F + 0.25F * random(11) - 0.2F * v / height);
+    const Vec3 dark =
+        mix(across, Vec3{0.16F, 0.17F, 0.26F}, smoothstep(0.1F, 0.45F, direction.y)) * fresnel +
+        Vec3{0.015F, 0.014F, 0.014F};
     if (random(1) > building.lit_share) return dark;
 
-    const float level = 3 * std::pow(8.0F, random(2));  // cd/m2
+    const float level = 2 * std::pow(9.0F, random(2));  // cd/m2
     const float kind = random(3);
     const Lamp& lamp = lamps();
     const Vec3 colour =
@@ -119,7 +125,7 @@ Vec3 shop_light(const Building& building, int column, float u, float v, float wi
     const auto random = [&](int what) { return hash_uniform(0, seed, what); };
     const Lamp& lamp = lamps();
     const Vec3 colour = random(1) < 0.6F ? lamp.white : lamp.cool;
-    const float level = 9 * std::pow(3.0F, random(2));
+    const float level = 5 * std::pow(3.0F, random(2));
     float hit_u = 0;
     float hit_v = 0;
     bool ceiling = false;

@@ -2,8 +2,8 @@
 // disc by exact coverage.
 #include <cmath>
 
-#include "aureole/base/parallel.h"
 #include "aureole/base/units.h"
+#include "scene/adaptive.h"
 #include "scene/builders.h"
 #include "scene/coverage.h"
 #include "scene/sun_landscape.h"
@@ -12,51 +12,20 @@ namespace aureole::scene {
 namespace daylight {
 namespace {
 
-constexpr int kFirstSamples = 2;
-constexpr int kMoreSamples = 6;
-constexpr float kContrast = 0.5F;  // within a pixel, beyond which more samples are taken
-
-struct Seen {
-    int what;
-    Vec3 radiance;
-};
-
-Seen look(const Camera& camera, double x, double y) {
-    const Vec3 direction = normalize(camera.ray(x, y).direction);
-    Vec3 land;
-    const int what = land_radiance(camera.position(), direction, camera.pixel_size(), land);
-    return {what, what > 0 ? land : sky_radiance(direction)};
-}
-
 void render_land_and_sky(const Camera& camera, Image& picture) {
-    parallel_for(static_cast<std::size_t>(picture.height()), [&](std::size_t row, int) {
-        const int y = static_cast<int>(row);
-        for (int x = 0; x < picture.width(); ++x) {
-            Vec3 sum;
-            float low = 1e9F;
-            float high = 0;
-            int count = 0;
-            int first = 0;
-            bool edge = false;
-            const auto sample = [&](int samples) {
-                for (int i = 0; i < samples; ++i, ++count) {
-                    const auto offset = pixel_sample(x, y, count);
-                    const Seen seen = look(camera, x + offset[0], y + offset[1]);
-                    if (count == 0) first = seen.what;
-                    edge = edge || seen.what != first;
-                    low = std::min(low, luminance(seen.radiance));
-                    high = std::max(high, luminance(seen.radiance));
-                    sum += seen.radiance;
-                }
-            };
-            sample(kFirstSamples);
-            if (edge || high > (1 + kContrast) * low) sample(kMoreSamples);
-            const Vec3 mean = sum * (1 / static_cast<float>(count));
-            picture.at(x, y, 0) = mean.x;
-            picture.at(x, y, 1) = mean.y;
-            picture.at(x, y, 2) = mean.z;
-        }
-    });
+    struct Nothing {};
+    Image no_shares(picture.width(), picture.height(), 1);
+    render_adaptive<Nothing>(
+        [&](double x, double y, Nothing&) {
+            const Vec3 direction = normalize(camera.ray(x, y).direction);
+            Vec3 radiance;
+            const int what =
+                land_radiance(camera.position(), direction, camera.pixel_size(), radiance);
+            if (what == 0) radiance = sky_radiance(direction);
+            // Textures are filtered; the edges are those between one thing and the next.
+            return Sample{radiance, static_cast<float>(what), -1};
+        },
+        picture, no_shares);
 }
 
 // The disc as the true projection of a cone of light.
