@@ -1,34 +1,44 @@
 #include "display_options.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 
 #include "aureole/base/error.h"
 #include "aureole/color/tone_curve.h"
+#include "option_checks.h"
+#include "output_options.h"
 
 namespace aureole::app {
+namespace {
+
+constexpr double kMostStops = 100;
+
+}  // namespace
 
 void DisplayOptions::add_options(CLI::App& command) {
     CLI::Option_group& group = *command.add_option_group("PNG and JPEG output");
     tone_map_option_ =
-        group
-            .add_option("--tone-map", tone_map_,
-                        "none: clip; narkowicz, hill: fits of ACES; aces: its output transform; "
-                        "xyz: keeps hue; ocio: a configuration")
-            ->check(CLI::IsMember({"none", "narkowicz", "hill", "aces", "xyz", "ocio"}))
+        one_of(group.add_option("--tone-map", tone_map_,
+                                "none: clip; narkowicz, hill: fits of ACES; aces: its output "
+                                "transform; xyz: keeps hue; ocio: a configuration"),
+               {"none", "narkowicz", "hill", "aces", "xyz", "ocio"})
             ->capture_default_str();
-    group
-        .add_option("--exposure", exposure_ev_,
-                    "Stops (default: attribute aureole:exposure_ev, else 0)")
+    number(group.add_option("--exposure", exposure_ev_,
+                            "Stops (default: attribute aureole:exposure_ev, else 0)"),
+           -kMostStops, kMostStops)
         ->type_name("EV");
-    group.add_option("--ocio-config", ocio_.config, "OpenColorIO configuration (default: $OCIO)")
-        ->type_name("FILE");
-    group.add_option("--ocio-input", ocio_.input_space,
-                     "Colour space of the picture (default: role scene_linear)");
-    group.add_option("--ocio-display", ocio_.display, "Display (default: the configuration's)");
-    group.add_option("--ocio-view", ocio_.view, "View (default: the display's)");
+    ocio_options_ = {
+        group
+            .add_option("--ocio-config", ocio_.config, "OpenColorIO configuration (default: $OCIO)")
+            ->type_name("FILE"),
+        group
+            .add_option("--ocio-input", ocio_.input_space,
+                        "Colour space of the picture (default: role scene_linear)")
+            ->type_name("NAME"),
+        group.add_option("--ocio-display", ocio_.display, "Display (default: the configuration's)")
+            ->type_name("NAME"),
+        group.add_option("--ocio-view", ocio_.view, "View (default: the display's)")
+            ->type_name("NAME")};
 }
 
 void DisplayOptions::prepare(const std::vector<std::string>& outputs) {
@@ -36,6 +46,12 @@ void DisplayOptions::prepare(const std::vector<std::string>& outputs) {
     if (!any_display && tone_map_option_->count() > 0) {
         throw InvalidArgument("--tone-map", tone_map_,
                               "applies to PNG and JPEG; EXR, HDR and TIFF are written linear");
+    }
+    for (const CLI::Option* option : ocio_options_) {
+        if (option->count() > 0 && tone_map_ != "ocio") {
+            throw InvalidArgument(option->get_name(), option->results().front(),
+                                  "needs --tone-map ocio");
+        }
     }
     if (!any_display) return;
     if (tone_map_ == "aces") {
@@ -46,12 +62,9 @@ void DisplayOptions::prepare(const std::vector<std::string>& outputs) {
 }
 
 double DisplayOptions::exposure_ev(const io::Picture& picture) const {
-    const double ev =
-        exposure_ev_.value_or(picture.float_attribute("aureole:exposure_ev").value_or(0.0F));
-    if (!std::isfinite(ev) || std::abs(ev) > 100) {
-        throw InvalidArgument("exposure (EV)", std::to_string(ev), "must be in [-100, 100]");
-    }
-    return ev;
+    if (exposure_ev_) return *exposure_ev_;
+    const double stored{picture.float_attribute("aureole:exposure_ev").value_or(0.0F)};
+    return std::abs(stored) <= kMostStops ? stored : 0;
 }
 
 Image DisplayOptions::encode(const ConstImageView& linear, double exposure_ev) const {
@@ -68,29 +81,6 @@ Image DisplayOptions::encode(const ConstImageView& linear, double exposure_ev) c
         color::tone_map_to_srgb(color::tone_curve_from_name(tone_map_), scale, rgb, encoded);
     }
     return linear.channels == 1 ? copy(encoded.view().channel_range(0, 1)) : encoded;
-}
-
-bool is_display_file(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
-}
-
-Image side_by_side(const ConstImageView& before, const ConstImageView& after) {
-    constexpr int kLine = 4;  // pixels of white between the two
-    Image both(2 * before.width + kLine, before.height, before.channels);
-    for (int c = 0; c < before.channels; ++c) {
-        for (int y = 0; y < before.height; ++y) {
-            float* out = both.row(y, c);
-            for (int x = 0; x < before.width; ++x) {
-                out[x] = before.at(x, y, c);
-                out[before.width + kLine + x] = after.at(x, y, c);
-            }
-            std::fill(out + before.width, out + before.width + kLine, 1.0F);
-        }
-    }
-    return both;
 }
 
 }  // namespace aureole::app

@@ -20,7 +20,8 @@ class DisplayOptions {
     // work. `outputs` are the files that will be written: a tone curve that was asked for needs a
     // PNG or JPEG among them. Throws InvalidArgument, FileError.
     void prepare(const std::vector<std::string>& outputs);
-    // Exposure in EV: --exposure, else the attribute aureole:exposure_ev of the picture, else 0.
+    // Exposure in EV: --exposure, else the attribute aureole:exposure_ev of the picture if it is
+    // within +-100, else 0.
     double exposure_ev(const io::Picture& picture) const;
     const std::string& tone_map() const { return tone_map_; }
 
@@ -30,15 +31,10 @@ class DisplayOptions {
   private:
     std::string tone_map_ = "hill";
     CLI::Option* tone_map_option_ = nullptr;
+    std::vector<CLI::Option*> ocio_options_;
     std::optional<double> exposure_ev_;
     io::OcioSettings ocio_;
     std::unique_ptr<io::DisplayTransform> transform_;
 };
-
-// Whether a file holds display values (PNG, JPEG) and not linear ones.
-bool is_display_file(const std::string& path);
-
-// Left half: the picture before; right half: after; a thin line between. Equal sizes.
-Image side_by_side(const ConstImageView& before, const ConstImageView& after);
 
 }  // namespace aureole::app

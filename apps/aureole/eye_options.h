@@ -16,12 +16,22 @@ class EyeOptions {
   public:
     void add_options(CLI::App& command);
 
-    // Whether the pupil follows from the luminance that the eye is adapted to.
+    // Throws InvalidArgument for an eye that cannot be, before any picture is read.
+    void check() const;
+    // The first of these options that was given, or nothing.
+    std::string first_given() const;
+
+    // Whether the pupil follows from the luminance that the picture is metered at.
     bool needs_adaptation() const { return pupil_ == "auto" && adaptation_ == "auto"; }
     // The eye of the options, looking at a view. `metered_cd_m2` is used if needs_adaptation().
     eye::Eye eye(double metered_cd_m2, const View& view) const;
+    // Every value of that eye, and where it came from.
+    nlohmann::ordered_json report(const eye::Eye& eye, double metered_cd_m2) const;
 
   private:
+    double adaptation_cd_m2(double metered_cd_m2) const;
+
+    const CLI::Option_group* group_ = nullptr;
     std::string preset_ = "physical";
     double age_years_ = 30;
     std::string pigmentation_ = "brown";
@@ -36,8 +46,5 @@ class EyeOptions {
     int eyelashes_ = 7;
     std::uint64_t seed_ = 1;
 };
-
-// Every value of an eye, for reports.
-nlohmann::ordered_json to_json(const eye::Eye& eye);
 
 }  // namespace aureole::app

@@ -3,12 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "aureole/base/error.h"
+#include "aureole/base/parallel.h"
 #include "aureole/color/rgb.h"
 #include "aureole/eye/eye_psf.h"
 #include "aureole/image/finite.h"
 #include "kernel_file.h"
+#include "option_checks.h"
 
 namespace aureole::app {
 namespace {
@@ -32,25 +35,39 @@ Image difference(const ConstImageView& after, const ConstImageView& before) {
     return result;
 }
 
-void assign(const ImageView& to, const ConstImageView& from) {
-    for (int c = 0; c < to.channels; ++c) {
-        for (int y = 0; y < to.height; ++y) {
-            for (int x = 0; x < to.width; ++x) to.at(x, y, c) = from.at(x, y, c);
-        }
-    }
-}
-
-// A picture of the colour only, over the same windows and with the same metadata.
+// The picture with other colour: same windows, metadata and further channels.
 io::Picture with_color(const io::Picture& picture, const ConstImageView& color) {
     io::Picture result = picture;
-    assign(result.color(), color);
+    const ImageView to = result.color();
+    for (int c = 0; c < to.channels; ++c) {
+        for (int y = 0; y < to.height; ++y) {
+            for (int x = 0; x < to.width; ++x) to.at(x, y, c) = color.at(x, y, c);
+        }
+    }
     return result;
+}
+
+// The mean luminance of what is meant to be seen, in units of the picture.
+double mean_luminance(const io::Picture& picture) {
+    const Image seen = over_display_window(picture.color(), picture);
+    double sum = 0;
+    for (int y = 0; y < seen.height(); ++y) {
+        for (int x = 0; x < seen.width(); ++x) {
+            const double value =
+                seen.channels() == 3
+                    ? color::luminance({seen.at(x, y, 0), seen.at(x, y, 1), seen.at(x, y, 2)})
+                    : seen.at(x, y, 0);
+            sum += std::max(value, 0.0);
+        }
+    }
+    return sum / static_cast<double>(seen.pixels());
 }
 
 }  // namespace
 
 void GlareSettings::add_options(CLI::App& command) {
     view.add_options(command);
+    view.add_white_luminance_option(command);
     eye.add_options(command);
     CLI::Option_group& group = *command.add_option_group("Applying it");
     group
@@ -58,86 +75,81 @@ void GlareSettings::add_options(CLI::App& command) {
                     "Use this kernel (EXR of `aureole psf`, or any odd-sized picture) instead of "
                     "an eye's")
         ->type_name("FILE");
-    group
-        .add_option("--method", method,
-                    "fft; direct: the plain double sum, exact and slow; auto: fft")
-        ->check(CLI::IsMember({"auto", "fft", "direct"}))
+    one_of(group.add_option("--method", method,
+                            "fft; direct: the plain double sum, exact and slow; auto: fft"),
+           {"auto", "fft", "direct"})
         ->capture_default_str();
-    group
-        .add_option("--output-layers", layers,
-                    "composite: the picture with glare; glare: what glare added and took away "
-                    "(sums with the input to the composite); both: EXR layers")
-        ->check(CLI::IsMember({"composite", "glare", "both"}))
+    one_of(group.add_option("--output-layers", layers,
+                            "composite: the picture with glare; glare: what glare added and took "
+                            "away (sums with the input to the composite); both: EXR layers"),
+           {"composite", "glare", "both"})
         ->capture_default_str();
     group
         .add_option("--matte", matte_file,
                     "Picture of the same size: only where it is 1 (its first channel) do pixels "
                     "make glare")
         ->type_name("FILE");
-    group
-        .add_option("--threshold", threshold,
-                    "Pixel values below make no glare (continuous ramp); 0 is physical")
-        ->check(CLI::NonNegativeNumber)
+    number(group.add_option("--threshold", threshold,
+                            "Pixel values below make no glare (continuous ramp); 0 is physical"),
+           0, 1e30)
         ->type_name("V")
         ->capture_default_str();
-    group.add_option("--gain", gain, "Scales the scattered light; 1 conserves energy")
-        ->check(CLI::NonNegativeNumber)
+    number(group.add_option("--gain", gain, "Scales the scattered light; 1 conserves energy"), 0,
+           1e6)
         ->type_name("G")
         ->capture_default_str();
     group
         .add_option("--side-by-side", side_by_side_file,
-                    "Also write a PNG or JPEG: the picture without glare, and with it")
+                    "Also write a PNG or JPEG: the picture without glare, and with it; a numbered "
+                    "name for a sequence")
         ->type_name("FILE");
-    group.add_option("--depth", depth, "Of EXR colour channels; half loses the wings of glare")
-        ->check(CLI::IsMember({"float", "half"}))
-        ->capture_default_str();
     display.add_options(command);
 }
 
-void GlareSettings::prepare(const std::vector<std::string>& outputs) {
-    std::vector<std::string> all = outputs;
-    if (!side_by_side_file.empty()) {
-        if (!is_display_file(side_by_side_file)) {
-            throw InvalidArgument("--side-by-side", side_by_side_file, "must be PNG or JPEG");
-        }
-        all.push_back(side_by_side_file);
+void GlareSettings::prepare(const std::vector<FrameFiles>& files) {
+    std::vector<std::string> outputs;
+    for (const FrameFiles& frame : files) {
+        outputs.insert(outputs.end(), frame.outputs.begin(), frame.outputs.end());
     }
-    if (layers == "both" && !std::all_of(outputs.begin(), outputs.end(), [](const auto& path) {
-            return path.ends_with(".exr") || path.ends_with(".EXR");
-        })) {
+    if (layers == "both" && !std::all_of(outputs.begin(), outputs.end(), is_exr_file)) {
         throw InvalidArgument("--output-layers", layers, "needs EXR output: others have no layers");
     }
-    display.prepare(all);
-}
-
-double GlareJob::metered_luminance(const io::Picture& picture) const {
-    if (const auto stored = picture.float_attribute("aureole:adaptation_cd_m2")) return *stored;
-    const ConstImageView color = picture.color();
-    double sum = 0;
-    for (int y = 0; y < color.height; ++y) {
-        for (int x = 0; x < color.width; ++x) {
-            const double value =
-                color.channels == 3
-                    ? color::luminance({color.at(x, y, 0), color.at(x, y, 1), color.at(x, y, 2)})
-                    : color.at(x, y, 0);
-            sum += std::max(value, 0.0);
-        }
+    output.check_depth(outputs);
+    if (!side_by_side_file.empty()) outputs.push_back(side_by_side_file);
+    display.prepare(outputs);
+    view.check();
+    eye.check();
+    if (const std::string option = eye.first_given(); !psf_file.empty() && !option.empty()) {
+        throw InvalidArgument("--psf", psf_file, "replaces the eye: leave out " + option);
     }
-    return sum / static_cast<double>(color.pixels()) * settings_.view.white_luminance(picture);
 }
 
-void GlareJob::prepare(const View& view, const io::Picture& picture) {
+double GlareJob::adaptation_for(const io::Picture& picture) {
+    if (!settings_.psf_file.empty() || !settings_.eye.needs_adaptation()) return 0;
+    if (metering_ == Metering::kFirst && first_metered_cd_m2_) return *first_metered_cd_m2_;
+    const double stored{picture.float_attribute("aureole:adaptation_cd_m2").value_or(-1.0F)};
+    const double metered = std::isfinite(stored) && stored >= 0
+                               ? stored
+                               : mean_luminance(picture) * settings_.view.white_luminance(picture);
+    first_metered_cd_m2_ = metered;
+    return metered;
+}
+
+void GlareJob::prepare(const io::Picture& picture) {
+    const View display = settings_.view.view_of(picture, session_);
+    const View view = data_view(display, picture);
     const int channels = picture.color_channels();
-    if (prepared_ && same_view(prepared_->view, view) && prepared_->channels == channels) return;
-    prepared_.reset();
-    if (!adaptation_cd_m2_) {
-        adaptation_cd_m2_ = settings_.eye.needs_adaptation() ? metered_luminance(picture) : 0.0;
+    const double metered = adaptation_for(picture);
+    if (prepared_ && same_view(prepared_->view, view) && same_view(prepared_->display, display) &&
+        prepared_->channels == channels && prepared_->metered_cd_m2 == metered) {
+        return;
     }
-    const eye::Eye eye = settings_.eye.eye(*adaptation_cd_m2_, view);
+    prepared_.reset();
+    const bool own_kernel = !settings_.psf_file.empty();
+    const eye::Eye eye = own_kernel ? eye::Eye{} : settings_.eye.eye(metered, display);
     wave::Psf psf = session_.timed("psf", [&] {
-        return settings_.psf_file.empty()
-                   ? eye::eye_psf(eye, wave::KernelGrid::full_reach(view), {}, &session_)
-                   : read_kernel(settings_.psf_file, view);
+        return own_kernel ? read_kernel(settings_.psf_file, view)
+                          : eye::eye_psf(eye, wave::KernelGrid::full_reach(view), {}, &session_);
     });
     glare::GlareOptions options;
     options.method = settings_.method == "auto" ? glare::Method::kFft
@@ -146,8 +158,8 @@ void GlareJob::prepare(const View& view, const io::Picture& picture) {
     options.gain = settings_.gain;
     options.matte = !settings_.matte_file.empty();
     session_.timed("plan", [&] {
-        prepared_.emplace(
-            Prepared{view, channels, eye, glare::Glare(view, channels, psf, options)});
+        prepared_.emplace(Prepared{display, view, channels, metered, eye,
+                                   glare::Glare(view, channels, psf, options)});
     });
     result_ = Image(view.width, view.height, channels);
 }
@@ -178,72 +190,72 @@ void GlareJob::process(const FrameFiles& files) {
     }
     nonfinite_pixels_ += nonfinite;
     const float* matte = matte_for(picture);
-    prepare(settings_.view.view_of(picture, session_), picture);
+    exposure_ev_ = settings_.display.exposure_ev(picture);
+    white_luminance_cd_m2_ = settings_.view.white_luminance(picture);
+    prepare(picture);
+    session_.check_interrupt();
     const ConstImageView in = picture.color();
     session_.timed("apply", [&] { prepared_->glare.apply(in, result_, matte); });
     const glare::Energy energy = prepared_->glare.energy(in, result_, matte);
     energy_.in += energy.in;
     energy_.out += energy.out;
     energy_.off_picture += energy.off_picture;
+    session_.check_interrupt();
     session_.timed("write", [&] { write(files, picture, result_); });
 }
 
 void GlareJob::write(const FrameFiles& files, const io::Picture& picture, const Image& result) {
-    const double ev = settings_.display.exposure_ev(picture);
-    io::WriteOptions options;
-    options.depth = settings_.depth == "half" ? io::Depth::kHalf : io::Depth::kFloat;
-    const bool glare_only = settings_.layers == "glare";
+    const auto encode = [&](const ConstImageView& linear) {
+        return settings_.display.encode(linear, exposure_ev_);
+    };
     const Image glare_layer =
         settings_.layers == "composite" ? Image() : difference(result, picture.color());
-    const ConstImageView main = glare_only ? glare_layer.view() : result.view();
+    const ConstImageView main = settings_.layers == "glare" ? glare_layer.view() : result.view();
     for (const std::string& path : files.outputs) {
         if (is_display_file(path)) {
-            io::write_picture(path, with_color(picture, settings_.display.encode(main, ev)));
+            io::write_picture(path, display_picture(encode(main), picture));
         } else {
             io::Picture output = with_color(picture, main);
             if (settings_.layers == "both") output.append_layer("glare", glare_layer);
-            const io::WriteReport report = io::write_picture(path, output, options);
-            if (report.clipped_samples > 0) {
-                session_.note(fmt::format("{}: {} samples do not fit its format and were clipped",
-                                          path, report.clipped_samples));
-            }
+            settings_.output.write(path, output, session_);
         }
         written_.push_back(path);
     }
-    if (!settings_.side_by_side_file.empty()) {
-        const Image both = side_by_side(settings_.display.encode(picture.color(), ev),
-                                        settings_.display.encode(result, ev));
-        io::write_picture(settings_.side_by_side_file, io::Picture(both));
-        written_.push_back(settings_.side_by_side_file);
+    if (!files.side_by_side.empty()) {
+        const Image before = encode(over_display_window(picture.color(), picture));
+        const Image after = encode(over_display_window(result, picture));
+        io::write_picture(files.side_by_side, io::Picture(side_by_side(before, after)));
+        written_.push_back(files.side_by_side);
     }
 }
 
 std::string GlareJob::report() {
     auto& json = session_.json();
-    const View& view = prepared_->view;
+    const Prepared& last = *prepared_;
     json["outputs"] = written_;
     json["energy"] = {
         {"in", energy_.in}, {"out", energy_.out}, {"off_picture", energy_.off_picture}};
     json["method"] = settings_.method == "direct" ? "direct" : "fft";
     json["nonfinite_pixels"] = nonfinite_pixels_;
     auto& parameters = json["parameters"];
-    parameters = {{"width", view.width},
-                  {"height", view.height},
-                  {"fov_deg", view.horizontal_field_deg()},
-                  {"perspective", view.projection == Projection::kPerspective},
-                  {"pitch_deg", view.pitch_deg},
-                  {"padded_width", prepared_->glare.padded_width()},
-                  {"padded_height", prepared_->glare.padded_height()},
+    parameters = {{"width", last.view.width},
+                  {"height", last.view.height},
+                  {"fov_deg", last.display.horizontal_field_deg()},
+                  {"perspective", last.view.projection == Projection::kPerspective},
+                  {"pitch_deg", last.view.pitch_deg},
+                  {"white_luminance_cd_m2", white_luminance_cd_m2_},
+                  {"padded_width", last.glare.padded_width()},
+                  {"padded_height", last.glare.padded_height()},
                   {"threshold", settings_.threshold},
                   {"gain", settings_.gain},
                   {"output_layers", settings_.layers},
+                  {"depth", settings_.output.depth()},
                   {"tone_map", settings_.display.tone_map()},
-                  {"depth", settings_.depth}};
+                  {"exposure_ev", exposure_ev_},
+                  {"threads", thread_count()}};
+    if (!settings_.matte_file.empty()) parameters["matte"] = settings_.matte_file;
     if (settings_.psf_file.empty()) {
-        parameters.update(to_json(prepared_->eye));
-        if (settings_.eye.needs_adaptation()) {
-            parameters["adaptation_cd_m2"] = *adaptation_cd_m2_;
-        }
+        parameters.update(settings_.eye.report(last.eye, last.metered_cd_m2));
     } else {
         parameters["psf"] = settings_.psf_file;
     }

@@ -11,22 +11,20 @@
 #include "aureole/io/picture.h"
 #include "display_options.h"
 #include "eye_options.h"
+#include "frame_files.h"
+#include "output_options.h"
 #include "session.h"
 #include "view_options.h"
 
 namespace aureole::app {
 
-struct FrameFiles {
-    std::string input;
-    std::vector<std::string> outputs;
-};
-
-// The options of the command.
+// The options of the command; those of `output` are added by the command itself.
 struct GlareSettings {
     void add_options(CLI::App& command);
     // Checks what can be checked before the first picture is read.
-    void prepare(const std::vector<std::string>& outputs);
+    void prepare(const std::vector<FrameFiles>& files);
 
+    OutputOptions output;
     ViewOptions view;
     EyeOptions eye;
     DisplayOptions display;
@@ -37,14 +35,19 @@ struct GlareSettings {
     float threshold = 0;
     float gain = 1;
     std::string side_by_side_file;
-    std::string depth = "float";
+};
+
+// Which pictures the eye adapts to if the options do not say.
+enum class Metering {
+    kEachPicture,  // pictures that have nothing to do with each other
+    kFirst,        // a sequence keeps the eye of its first picture
 };
 
 // Pictures one after another; PSF and transforms are kept as long as the view and the eye stay.
 class GlareJob {
   public:
-    GlareJob(const GlareSettings& settings, Session& session)
-        : settings_(settings), session_(session) {}
+    GlareJob(const GlareSettings& settings, Session& session, Metering metering)
+        : settings_(settings), session_(session), metering_(metering) {}
 
     void process(const FrameFiles& files);
     // Fills the session's JSON report and returns a summary for people.
@@ -53,24 +56,29 @@ class GlareJob {
   private:
     // What the transforms were prepared for.
     struct Prepared {
-        View view;
+        View display;  // of the display window
+        View view;     // of the data window: all of it makes glare
         int channels;
+        double metered_cd_m2;  // 0: not needed
         eye::Eye eye;
         glare::Glare glare;
     };
 
-    void prepare(const View& view, const io::Picture& picture);
-    double metered_luminance(const io::Picture& picture) const;
+    void prepare(const io::Picture& picture);
+    double adaptation_for(const io::Picture& picture);
     const float* matte_for(const io::Picture& picture);
     void write(const FrameFiles& files, const io::Picture& picture, const Image& result);
 
     const GlareSettings& settings_;
     Session& session_;
+    Metering metering_;
     std::optional<Prepared> prepared_;
-    std::optional<double> adaptation_cd_m2_;  // of the first picture: a sequence keeps its eye
+    std::optional<double> first_metered_cd_m2_;
     Image result_;
     Image matte_;
     glare::Energy energy_;
+    double exposure_ev_ = 0;  // of the last picture, for the report
+    double white_luminance_cd_m2_ = 0;
     std::size_t nonfinite_pixels_ = 0;
     std::vector<std::string> written_;
 };

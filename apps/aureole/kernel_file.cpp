@@ -1,5 +1,7 @@
 #include "kernel_file.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "aureole/color/rgb.h"
+#include "aureole/image/finite.h"
 
 namespace aureole::app {
 namespace {
@@ -16,6 +19,8 @@ constexpr const char* kProjection = "aureole:projection";
 constexpr const char* kOffKernel = "aureole:off_kernel_energy";
 constexpr std::array<const char*, 3> kOffKernelOf = {
     "aureole:off_kernel_energy_r", "aureole:off_kernel_energy_g", "aureole:off_kernel_energy_b"};
+
+constexpr double kPitchTolerance = 1e-3;
 
 const char* name_of(Projection projection) {
     return projection == Projection::kPerspective ? "perspective" : "constant-pitch";
@@ -36,12 +41,17 @@ io::Picture picture_of(const wave::Psf& psf) {
 }
 
 wave::Psf read_kernel(const std::string& path, const View& view) {
-    const io::Picture picture = io::read_picture(path);
+    io::Picture picture = io::read_picture(path);
+    if (const std::size_t bad = replace_nonfinite(picture.color()); bad > 0) {
+        throw FileError(path, fmt::format("a kernel must be finite: {} of its pixels are NaN or "
+                                          "infinite",
+                                          bad));
+    }
     const Image& image = picture.image();
     if (image.width() % 2 == 0 || image.height() % 2 == 0) {
-        throw FileError(path, "a kernel of " + std::to_string(image.width()) + "x" +
-                                  std::to_string(image.height()) +
-                                  " pixels has no central pixel: both sizes must be odd");
+        throw FileError(path, fmt::format("a kernel of {}x{} pixels has no central pixel: both "
+                                          "sizes must be odd",
+                                          image.width(), image.height()));
     }
     wave::Psf psf;
     psf.kernel = Image(image.width(), image.height(), 3);
@@ -53,21 +63,28 @@ wave::Psf read_kernel(const std::string& path, const View& view) {
         }
     }
     psf.grid = {image.width(), image.height(), view.pitch_deg, view.projection};
-    if (const auto pitch = picture.float_attribute(kPitch)) {
-        psf.grid.pitch_deg = *pitch;
-        psf.grid.projection = picture.string_attribute(kProjection) == "constant-pitch"
-                                  ? Projection::kConstantPitch
-                                  : Projection::kPerspective;
+    if (const auto pitch_deg = picture.float_attribute(kPitch)) {
+        const std::string projection =
+            picture.string_attribute(kProjection).value_or(name_of(view.projection));
+        if (projection != name_of(view.projection) ||
+            !(std::abs(*pitch_deg / view.pitch_deg - 1) <= kPitchTolerance)) {
+            throw FileError(
+                path,
+                fmt::format("is a kernel for pixels of {:.6g} deg, {}; those of the "
+                            "picture have {:.6g} deg, {}: make it with its --width, "
+                            "--fov and --perspective",
+                            *pitch_deg, projection, view.pitch_deg, name_of(view.projection)));
+        }
         for (std::size_t c = 0; c < 3; ++c) {
-            psf.off_kernel_energy[c] = picture.float_attribute(kOffKernelOf[c]).value_or(0.0F);
+            psf.off_kernel_energy[c] = double{picture.float_attribute(kOffKernelOf[c]).value_or(0)};
         }
     }
     return psf;
 }
 
 Image logarithmic_picture(const wave::Psf& psf) {
-    constexpr double kBlack = -1;  // log10 of the density shown as black, sr^-1
-    constexpr double kWhite = 5;
+    constexpr double kBlack = -2.5;  // log10 of the density shown as black, sr^-1
+    constexpr double kWhite = 4;
     const Image& kernel = psf.kernel;
     const View view = psf.grid.view();
     Image picture(kernel.width(), kernel.height(), 3);

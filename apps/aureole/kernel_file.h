@@ -17,10 +17,10 @@ io::Picture picture_of(const wave::Psf& psf);
 // A kernel from any picture file, RGB or grey. Written by this program, it must have the view's
 // pitch and projection; anyone else's kernel is taken as made for the view and as complete:
 // nothing is normalised.
-// Throws FileError, InvalidArgument if the kernel has even size.
+// Throws FileError also for a kernel of even size, for other pixels, or with NaN or infinities.
 wave::Psf read_kernel(const std::string& path, const View& view);
 
-// The kernel as people look at it: the logarithm of its density, 0.1 sr^-1 black to 1e5 sr^-1
+// The kernel as people look at it: the logarithm of its density, 10^-2.5 sr^-1 black to 10^4 sr^-1
 // white, hue kept, display values in [0, 1].
 Image logarithmic_picture(const wave::Psf& psf);
 

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <string>
 #include <vector>
 
 #include "aureole/base/error.h"
@@ -13,13 +14,39 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
+std::string command_names(const CLI::App& app) {
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        names += (names.empty() ? "" : ", ") + command->get_name();
+    }
+    return names;
+}
+
+// What is wrong with a command line that cannot be parsed. Options that do not exist come first:
+// what CLI11 misses may well be what a mistyped option should have been.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<std::string> unexpected = app.remaining(true);
+    if (unexpected.empty()) return error.what();
+    const std::string& first = unexpected.front();
+    if (first.starts_with("-")) return "unknown option " + first;
+    if (!app.get_subcommands().empty()) return "unexpected argument " + first;
+    return "unknown command " + first + ": must be one of " + command_names(app);
+}
+
+int wrong_usage(const CLI::App& app, const std::string& message) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    fmt::print(stderr, "aureole: {}\nAll options: aureole {}--help\n", message,
+               chosen.empty() ? "" : chosen.front()->get_name() + " ");
+    return kWrongUsage;
+}
+
 int run(int argc, char** argv) {
     CLI::App app(
         "Physically-based glare on linear HDR pictures.\n"
         "`aureole COMMAND --help` describes a command.",
         "aureole");
     app.set_version_flag("--version", "aureole " AUREOLE_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);
 
     using namespace aureole::app;
     std::vector<Run> commands = {add_glare_command(app), add_psf_command(app),
@@ -27,12 +54,16 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : kWrongUsage;
+        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+        return wrong_usage(app, usage_error(app, error));
     }
     for (std::size_t i = 0; i < commands.size(); ++i) {
-        if (app.get_subcommands({})[i]->parsed()) commands[i]();
+        if (app.get_subcommands({})[i]->parsed()) {
+            commands[i]();
+            return 0;
+        }
     }
-    return 0;
+    return wrong_usage(app, "no command given: must be one of " + command_names(app));
 }
 
 }  // namespace

@@ -5,13 +5,15 @@
 #include <memory>
 
 #include "aureole/base/error.h"
+#include "aureole/base/parallel.h"
 #include "aureole/eye/eye_psf.h"
 #include "aureole/eye/joint_psf.h"
 #include "aureole/io/picture.h"
 #include "commands.h"
-#include "display_options.h"
 #include "eye_options.h"
 #include "kernel_file.h"
+#include "option_checks.h"
+#include "output_options.h"
 #include "session.h"
 #include "view_options.h"
 
@@ -29,38 +31,35 @@ struct PsfCommand {
     Session session;
     ViewOptions view_options;
     EyeOptions eye_options;
-    std::vector<std::string> outputs;
+    OutputOptions output;
     int width = 1920;
     std::optional<int> height;
     int size = 1025;
     std::string component = "all";
-    std::string depth = "float";
 };
 
 void PsfCommand::add_options(CLI::App& command) {
-    command
-        .add_option("-o,--output", outputs,
-                    "EXR (the kernel), PNG or JPEG (a logarithmic picture of it); may be repeated")
-        ->required()
-        ->type_name("FILE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--width", width, "Width in pixels of the pictures the kernel is for")
-        ->check(CLI::Range(1, 1 << 16))
+    output.add_options(command,
+                       "EXR (the kernel), PNG or JPEG (a logarithmic picture of it); may be "
+                       "repeated");
+    whole_number(
+        command.add_option("--width", width, "Width in pixels of the pictures the kernel is for"),
+        1, 1 << 16)
+        ->type_name("PIXELS")
         ->capture_default_str();
-    command.add_option("--height", height, "Their height (default: 9/16 of the width)")
-        ->check(CLI::Range(1, 1 << 16));
-    command.add_option("--size", size, "Width and height of the kernel in pixels, odd")
-        ->check(CLI::Range(1, 1 << 14))
+    whole_number(
+        command.add_option("--height", height, "Their height (default: 9/16 of the width)"), 1,
+        1 << 16)
+        ->type_name("PIXELS");
+    whole_number(command.add_option("--size", size, "Width and height of the kernel, odd"), 1,
+                 (1 << 14) - 1)
+        ->type_name("PIXELS")
         ->capture_default_str();
-    command
-        .add_option("--component", component,
-                    "One part alone, with energy 1: bloom (the pupil's Airy pattern), corona, "
-                    "halo, streaks; joint: diffraction of all in one mask, as the thesis does it")
-        ->check(CLI::IsMember({"all", "bloom", "corona", "halo", "streaks", "joint"}))
-        ->capture_default_str();
-    command.add_option("--depth", depth, "Of EXR channels; half loses the wings of a kernel")
-        ->check(CLI::IsMember({"float", "half"}))
+    one_of(command.add_option("--component", component,
+                              "One part alone, with energy 1: bloom (the pupil's Airy pattern), "
+                              "corona, halo, streaks; joint: diffraction of all in one mask, as "
+                              "the thesis does it"),
+           {"all", "bloom", "corona", "halo", "streaks", "joint"})
         ->capture_default_str();
     view_options.add_options(command);
     eye_options.add_options(command);
@@ -80,37 +79,46 @@ wave::Psf PsfCommand::compute(const eye::Eye& eye, const wave::KernelGrid& grid)
 
 void PsfCommand::run() {
     session.start();
-    for (const std::string& output : outputs) io::check_picture_extension(output);
+    check_outputs(output.paths());
+    output.check_depth(output.paths());
+    if (size % 2 == 0) {
+        throw InvalidArgument("--size", fmt::format("{}", size),
+                              "must be odd: the source is in the middle of a pixel");
+    }
     const View view = view_options.view_of_size(width, height.value_or((width * 9 + 8) / 16));
+    const eye::Eye eye = eye_options.eye(kDefaultAdaptation, view);
     if (eye_options.needs_adaptation()) {
         session.note(
-            fmt::format("no adaptation luminance: assuming {} cd/m2 (--adaptation, "
-                        "--pupil)",
+            fmt::format("no adaptation luminance: assuming {} cd/m2 (--adaptation, --pupil)",
                         kDefaultAdaptation));
     }
-    const eye::Eye eye = eye_options.eye(kDefaultAdaptation, view);
     const wave::KernelGrid grid = wave::KernelGrid::square(view, size);
     const wave::Psf psf = session.timed("psf", [&] { return compute(eye, grid); });
+    session.check_interrupt();
     session.timed("write", [&] {
-        for (const std::string& output : outputs) {
-            io::WriteOptions options;
-            options.depth = depth == "half" ? io::Depth::kHalf : io::Depth::kFloat;
-            io::write_picture(
-                output,
-                is_display_file(output) ? io::Picture(logarithmic_picture(psf)) : picture_of(psf),
-                options);
+        for (const std::string& path : output.paths()) {
+            if (is_display_file(path)) {
+                io::write_picture(path, io::Picture(logarithmic_picture(psf)));
+            } else {
+                output.write(path, picture_of(psf), session);
+            }
         }
     });
     auto& json = session.json();
-    json["outputs"] = outputs;
+    json["outputs"] = output.paths();
     json["energy"] = {{"off_kernel", psf.off_kernel_energy}};
-    json["parameters"] = to_json(eye);
+    json["parameters"] = eye_options.report(eye, kDefaultAdaptation);
     json["parameters"].update({{"component", component},
+                               {"width", view.width},
+                               {"height", view.height},
+                               {"fov_deg", view.horizontal_field_deg()},
+                               {"perspective", grid.projection == Projection::kPerspective},
                                {"size", size},
                                {"pitch_deg", grid.pitch_deg},
-                               {"perspective", grid.projection == Projection::kPerspective}});
+                               {"depth", output.depth()},
+                               {"threads", thread_count()}});
     std::string summary;
-    for (const std::string& output : outputs) summary += output + "\n";
+    for (const std::string& path : output.paths()) summary += path + "\n";
     session.finish(summary);
 }
 

@@ -4,15 +4,19 @@
 #include <cmath>
 #include <memory>
 
-#include "aureole/base/error.h"
+#include "aureole/base/parallel.h"
 #include "aureole/io/picture.h"
 #include "aureole/scene/scene.h"
 #include "commands.h"
 #include "display_options.h"
+#include "option_checks.h"
+#include "output_options.h"
 #include "session.h"
 
 namespace aureole::app {
 namespace {
+
+constexpr int kMostPixels = 32768;
 
 struct SceneCommand {
     void add_options(CLI::App& command);
@@ -20,8 +24,8 @@ struct SceneCommand {
 
     Session session;
     DisplayOptions display;
+    OutputOptions output;
     std::string name;
-    std::vector<std::string> outputs;
     scene::SceneOptions options;
     double white_luminance_cd_m2 = 100;
 };
@@ -35,28 +39,37 @@ std::string scene_names() {
 }
 
 void SceneCommand::add_options(CLI::App& command) {
-    command.add_option("NAME", name, scene_names())->required();
-    command
-        .add_option("-o,--output", outputs,
-                    "Picture to write: EXR, HDR or TIFF (linear), PNG or JPEG (tone-mapped); may "
-                    "be repeated")
-        ->required()
-        ->type_name("FILE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--width", options.width, "Pixels")->capture_default_str();
-    command.add_option("--height", options.height, "Pixels")->capture_default_str();
-    command.add_option("--fov", options.fov_deg, "Horizontal field of view (default: the scene's)")
+    command.add_option("NAME", name, scene_names())->required()->type_name("");
+    output.add_options(command,
+                       "Picture to write: EXR, HDR or TIFF (linear), PNG or JPEG (tone-mapped); "
+                       "may be repeated");
+    const auto pixels = [&](const char* option, int& value) {
+        whole_number(command.add_option(option, value, "Pixels"), 1, kMostPixels)
+            ->type_name("PIXELS")
+            ->capture_default_str();
+    };
+    pixels("--width", options.width);
+    pixels("--height", options.height);
+    number(command.add_option("--fov", options.fov_deg,
+                              "Horizontal field of view, at most 170 (default: the scene's)"))
         ->type_name("DEG");
-    command
-        .add_option("--white-luminance", white_luminance_cd_m2,
-                    "What pixel value 1 means, in cd/m2")
-        ->check(CLI::PositiveNumber)
+    positive_number(command.add_option("--white-luminance", white_luminance_cd_m2,
+                                       "What pixel value 1 means, in cd/m2"))
+        ->type_name("CD_M2")
         ->capture_default_str();
-    command.add_option("--seed", options.seed, "Another town, another sky")->capture_default_str();
-    command.add_option("--point-x", options.point_x, "point: column of the lit pixel");
-    command.add_option("--point-y", options.point_y, "point: row of the lit pixel");
-    command.add_option("--point-luminance", options.point_cd_m2, "point: its luminance in cd/m2")
+    seed_number(command.add_option("--seed", options.seed, "Another town, another sky"))
+        ->type_name("N")
+        ->capture_default_str();
+    const auto position = [&](const char* option, std::optional<int>& value, const char* text) {
+        whole_number(command.add_option(option, value, text), 0, kMostPixels - 1)
+            ->type_name("PIXEL");
+    };
+    position("--point-x", options.point_x, "point: column of the lit pixel");
+    position("--point-y", options.point_y, "point: row of the lit pixel");
+    number(command.add_option("--point-luminance", options.point_cd_m2,
+                              "point: its luminance in cd/m2"),
+           0, 1e30)
+        ->type_name("CD_M2")
         ->capture_default_str();
     display.add_options(command);
     session.add_options(command);
@@ -64,8 +77,9 @@ void SceneCommand::add_options(CLI::App& command) {
 
 void SceneCommand::run() {
     session.start();
-    for (const std::string& output : outputs) io::check_picture_extension(output);
-    display.prepare(outputs);
+    check_outputs(output.paths());
+    output.check_depth(output.paths());
+    display.prepare(output.paths());
     scene::Scene scene = session.timed("scene", [&] { return scene::make_scene(name, options); });
     const auto scale = static_cast<float>(1 / white_luminance_cd_m2);
     for (int c = 0; c < 3; ++c) {
@@ -79,28 +93,32 @@ void SceneCommand::run() {
                                                                         0, scene.view.axis_y)));
     picture.set_attribute("aureole:adaptation_cd_m2", static_cast<float>(scene.adaptation_cd_m2));
     picture.set_attribute("aureole:exposure_ev", static_cast<float>(ev));
+    session.check_interrupt();
     session.timed("write", [&] {
-        for (const std::string& output : outputs) {
-            if (is_display_file(output)) {
-                io::write_picture(output, io::Picture(display.encode(
-                                              picture.color(), display.exposure_ev(picture))));
+        for (const std::string& path : output.paths()) {
+            if (is_display_file(path)) {
+                const Image encoded = display.encode(picture.color(), display.exposure_ev(picture));
+                io::write_picture(path, io::Picture(encoded));
             } else {
-                io::write_picture(output, picture);
+                output.write(path, picture, session);
             }
         }
     });
     auto& json = session.json();
     json["scene"] = name;
-    json["outputs"] = outputs;
+    json["outputs"] = output.paths();
     json["parameters"] = {{"width", options.width},
                           {"height", options.height},
                           {"fov_deg", 2 * scene.view.angle_from_axis_deg(0, scene.view.axis_y)},
                           {"white_luminance_cd_m2", white_luminance_cd_m2},
                           {"adaptation_cd_m2", scene.adaptation_cd_m2},
-                          {"exposure_ev", ev},
-                          {"seed", options.seed}};
+                          {"exposure_ev", display.exposure_ev(picture)},
+                          {"tone_map", display.tone_map()},
+                          {"depth", output.depth()},
+                          {"seed", options.seed},
+                          {"threads", thread_count()}};
     std::string summary;
-    for (const std::string& output : outputs) summary += output + "\n";
+    for (const std::string& path : output.paths()) summary += path + "\n";
     session.finish(summary);
 }
 

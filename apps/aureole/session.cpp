@@ -8,32 +8,39 @@
 #include <iostream>
 
 #include "aureole/base/error.h"
+#include "option_checks.h"
 
 namespace aureole::app {
 namespace {
 
 volatile std::sig_atomic_t g_interrupted = 0;
 
-extern "C" void on_interrupt(int) { g_interrupted = 1; }
+extern "C" void on_interrupt(int signal) {
+    g_interrupted = 1;
+    std::signal(signal, SIG_DFL);
+}
 
 }  // namespace
 
 void Session::add_options(CLI::App& command) {
     command.add_flag("--json", json_wanted_, "Print one JSON report on standard output");
     command.add_flag("--quiet", quiet_, "No notes, no progress bar, no summary");
-    command.add_option("--threads", threads_, "Threads to use; 0: all")
-        ->check(CLI::Range(0, 1024))
+    whole_number(command.add_option("--threads", threads_, "Threads to use; 0: all"), 0, 1024)
+        ->type_name("N")
         ->capture_default_str();
+    command.set_version_flag("--version", "aureole " AUREOLE_VERSION);
 }
 
 void Session::start() {
     limit_ = std::make_unique<ThreadLimit>(threads_);
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
+    // A limit on file sizes shall fail as a full disk does, with a message and without debris.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void Session::note(const std::string& text) {
-    if (quiet_) return;
+    if (quiet_ || !notes_.insert(text).second) return;
     clear_bar();
     fmt::print(stderr, "note: {}\n", text);
 }
@@ -80,6 +87,8 @@ void Session::finish(const std::string& summary) {
     } else if (!quiet_) {
         std::cout << summary;
     }
+    std::cout.flush();
+    if (!std::cout) throw FileError("standard output", "cannot be written");
 }
 
 }  // namespace aureole::app

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "aureole/base/parallel.h"
@@ -16,12 +17,14 @@ namespace aureole::app {
 
 class Session : public Progress {
   public:
-    // Adds --json, --quiet and --threads to a command.
+    // Adds --json, --quiet, --threads and --version to a command.
     void add_options(CLI::App& command);
-    // After parsing: applies --threads and takes over SIGINT and SIGTERM.
+    // After parsing: applies --threads and takes over SIGINT and SIGTERM: the first asks to stop at
+    // the next safe point, a second one ends the program at once.
     void start();
 
-    // One line on standard error, unless --quiet. What was assumed or replaced, not errors.
+    // One line on standard error, unless --quiet, and only once however many frames say the same.
+    // What was assumed or replaced, not errors.
     void note(const std::string& text);
 
     // Runs work and adds the time it took to report["seconds"][stage].
@@ -42,7 +45,8 @@ class Session : public Progress {
     // The JSON report; seconds are filled in by timed().
     nlohmann::ordered_json& json() { return json_; }
     bool wants_json() const { return json_wanted_; }
-    // Prints the JSON report if it was asked for; else `summary`, unless --quiet.
+    // Prints the JSON report if it was asked for; else `summary`, unless --quiet. Throws FileError
+    // if standard output does not take it.
     void finish(const std::string& summary);
 
   private:
@@ -65,6 +69,7 @@ class Session : public Progress {
     bool json_wanted_ = false;
     bool quiet_ = false;
     int threads_ = 0;
+    std::set<std::string> notes_;
     bool bar_shown_ = false;
     std::string bar_stage_;
     std::chrono::steady_clock::time_point bar_start_;

@@ -54,7 +54,7 @@ float car_distance(const Car& car, Vec3 p) {
     const float taper = 1 + 0.10F * along * along * along * along;
     const float fall = (p.z > 0 ? 0.11F : 0.02F) * along * along;
     // Flanks are convex, so that highlights run along them as lines.
-    const float crown = 1 + 0.22F * square(p.y - 0.66F);
+    const float crown = 1 + 0.45F * square(p.y - 0.66F);
     const Vec3 q = {p.x * taper * crown, p.y - 0.615F + fall, p.z};
     float d = rounded_box(q, {0.885F, 0.335F, 2.12F}, 0.17F);
     // The cabin begins at 0.77 m.
@@ -111,7 +111,7 @@ Vec3 shade_car(const Street& street, const Car& car, const SurfacePoint& at) {
     Vec3 albedo = car.paint;
     float gloss = 0.30F;
     float f0 = 0.045F;
-    float alpha = 0.20F;
+    float alpha = 0.085F;
     if (glass) {
         albedo = {0.004F, 0.004F, 0.005F};
         alpha = 0.05F;

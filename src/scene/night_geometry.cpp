@@ -136,6 +136,19 @@ void march(const Ray& ray, Span span, float scale, const Distance& distance, Kin
     }
 }
 
+// Where a ray can meet a car: in the box of its body or in that of its cabin.
+Span car_span(const BoxRay& ray, const Car& car) {
+    const Vec3 p = car.position;
+    const float tail = car.heading * -2.12F;
+    const float nose = car.heading * 1.2F;
+    const Span body = box_span(ray, p + Vec3{-0.95F, 0, -2.2F}, p + Vec3{0.95F, 1.0F, 2.2F});
+    const Span cabin = box_span(ray, p + Vec3{-0.84F, 0.95F, std::min(tail, nose)},
+                                p + Vec3{0.84F, 1.5F, std::max(tail, nose)});
+    if (body.enter >= body.leave) return cabin;
+    if (cabin.enter >= cabin.leave) return body;
+    return {std::min(body.enter, cabin.enter), std::max(body.leave, cabin.leave), 0};
+}
+
 // Nearest point of a ray to a bar, as a cylinder with round ends (after Quilez, "Capsule").
 float hit_bar(const Ray& ray, const Bar& bar, Vec3& normal) {
     const Vec3 ba = bar.to - bar.from;
@@ -238,8 +251,8 @@ Hit trace(const Street& street, const std::vector<Object>& objects, const std::v
             case Kind::kCar: {
                 const Car& car = street.cars[index];
                 march(
-                    ray, span, scale, [&](Vec3 p) { return car_distance(car, to_car(car, p)); },
-                    Kind::kCar, hit);
+                    ray, car_span(box, car), scale,
+                    [&](Vec3 p) { return car_distance(car, to_car(car, p)); }, Kind::kCar, hit);
                 break;
             }
             case Kind::kPerson: {

@@ -5,6 +5,7 @@
 
 #include "scene/builders.h"
 #include "scene/night_street.h"
+#include "scene/noise.h"
 
 namespace aureole::scene::night {
 namespace {
@@ -93,12 +94,16 @@ const std::vector<Light>& Street::lights_at(float z) const {
 }
 
 Vec3 sky_radiance(Vec3 direction) {
-    // The glow of a town: sodium and LED light scattered back, brightest at the horizon.
+    // The glow of a large town: what its lamps send up comes back from haze, brightest at the
+    // horizon, and from broken cloud.
+    constexpr Vec3 kZenith = Vec3{0.62F, 0.84F, 1.9F} * 0.085F;
+    constexpr Vec3 kGlow = Vec3{1.22F, 0.96F, 0.82F} * 0.40F;
     const float up = std::max(direction.y, 0.0F);
-    const Vec3 zenith = Vec3{0.55F, 0.80F, 1.9F} * 0.0075F;
-    const Vec3 glow = Vec3{1.35F, 0.95F, 0.62F} * 0.060F;
-    return zenith + glow * std::exp(-up / 0.16F) +
-           Vec3{0.9F, 0.9F, 1.2F} * (0.010F * std::exp(-up / 0.5F));
+    const float per_height = 1 / (up + 0.18F);
+    const float cloud = fractal_noise(1.3F * direction.x * per_height, 1.3F * per_height, 1.0F, 5,
+                                      0.01F * per_height, 8);
+    const Vec3 haze = kZenith + kGlow * std::exp(-up / 0.14F);
+    return haze * (1 + 0.55F * smoothstep(-0.1F, 0.6F, cloud));
 }
 
 Vec3 irradiance(const Street& street, Vec3 position, Vec3 normal) {
@@ -146,17 +151,18 @@ Vec3 glints(const Street& street, Vec3 position, Vec3 normal, Vec3 to_eye, float
         const Vec3 to_light = difference * inverse;
         const float cos_light = dot(normal, to_light);
         if (cos_light <= 0) continue;
-        const Vec3 half = normalize(to_light + to_eye);
-        const float cos_half = dot(normal, half);
+        // Squares of the half vector's cosines, with the normal and with either direction.
+        const float one_plus = 1 + dot(to_light, to_eye);
+        const float cos2_half = square(cos_light + cos_eye) / (2 * one_plus);
         // The source's own size widens the lobe (Karis 2013, "Real Shading in Unreal Engine 4").
         const float wide = std::min(alpha + light.radius_m * inverse * 0.5F, 1.0F);
         const float a2 = wide * wide;
-        const float distribution = a2 / (3.14159265F * square(cos_half * cos_half * (a2 - 1) + 1));
+        const float distribution = a2 / (3.14159265F * square(cos2_half * (a2 - 1) + 1));
         // Too far from the mirror direction to be seen.
         if (light.candela * distribution * inverse * inverse < 3e-4F * cos_eye) continue;
         const float strength = lobe(light, to_light * -1);
         if (strength <= 0) continue;
-        const float schlick = 1 - std::max(dot(half, to_eye), 0.0F);
+        const float schlick = 1 - std::sqrt(0.5F * one_plus);
         const float fresnel = f0 + (1 - f0) * square(square(schlick)) * schlick;
         // Height-correlated Smith masking with the cosines' denominator (Heitz 2014).
         const float visibility =

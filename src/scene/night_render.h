@@ -34,4 +34,9 @@ Seen look(const Street& street, const std::vector<Object>& objects, const std::v
 void render_street(const Street& street, const std::vector<Object>& objects, const Camera& camera,
                    Image& picture, Image& sky_share);
 
+// The visible luminaires, each with exactly the energy that its solid angle gives it. One behind
+// something else is left out whole.
+void add_luminaires(const Street& street, const std::vector<Object>& objects, const Camera& camera,
+                    Image& picture);
+
 }  // namespace aureole::scene::night

@@ -29,6 +29,8 @@ void add_sky_stars(const SceneOptions& options, const Camera& camera, const Imag
     }
 }
 
+}  // namespace
+
 void add_luminaires(const Street& street, const std::vector<Object>& objects, const Camera& camera,
                     Image& picture) {
     std::vector<int> all(objects.size());
@@ -55,7 +57,6 @@ void add_luminaires(const Street& street, const std::vector<Object>& objects, co
     }
 }
 
-}  // namespace
 }  // namespace night
 
 Scene make_night_street(const SceneOptions& options, const View& view) {

@@ -1,0 +1,32 @@
+// Checks of option values. Their messages name the option, the value and what is allowed:
+// "--age = old: must be a number". Each returns the option that it was given.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aureole::app {
+
+// One of these words; the help shows them.
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& words);
+
+// A finite number in [least, most].
+CLI::Option* number(CLI::Option* option, double least = -std::numeric_limits<double>::infinity(),
+                    double most = std::numeric_limits<double>::infinity());
+// A finite number above 0.
+CLI::Option* positive_number(CLI::Option* option);
+
+// An integer in [least, most], decimal.
+CLI::Option* whole_number(CLI::Option* option, std::int64_t least, std::int64_t most);
+// An integer in [0, 2^64).
+CLI::Option* seed_number(CLI::Option* option);
+
+// "auto" or a finite number; given_number() is that number, or nothing for auto.
+CLI::Option* number_or_auto(CLI::Option* option);
+std::optional<double> given_number(const std::string& text);
+
+}  // namespace aureole::app
