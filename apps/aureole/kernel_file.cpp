@@ -83,7 +83,7 @@ wave::Psf read_kernel(const std::string& path, const View& view) {
 }
 
 Image logarithmic_picture(const wave::Psf& psf) {
-    constexpr double kBlack = -2.5;  // log10 of the density shown as black, sr^-1
+    constexpr double kBlack = -2;  // log10 of the density shown as black, sr^-1
     constexpr double kWhite = 4;
     const Image& kernel = psf.kernel;
     const View view = psf.grid.view();

@@ -20,7 +20,7 @@ io::Picture picture_of(const wave::Psf& psf);
 // Throws FileError also for a kernel of even size, for other pixels, or with NaN or infinities.
 wave::Psf read_kernel(const std::string& path, const View& view);
 
-// The kernel as people look at it: the logarithm of its density, 10^-2.5 sr^-1 black to 10^4 sr^-1
+// The kernel as people look at it: the logarithm of its density, 0.01 sr^-1 black to 10000 sr^-1
 // white, hue kept, display values in [0, 1].
 Image logarithmic_picture(const wave::Psf& psf);
 

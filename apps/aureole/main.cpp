@@ -26,7 +26,12 @@ std::string command_names(const CLI::App& app) {
 // what CLI11 misses may well be what a mistyped option should have been.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<std::string> unexpected = app.remaining(true);
-    if (unexpected.empty()) return error.what();
+    if (unexpected.empty()) {
+        const std::string text = error.what();
+        const std::string name = text.substr(0, text.find(':'));
+        if (error.get_name() != "ArgumentMismatch") return text;
+        return name + (text.ends_with("missing") ? " needs a value" : " is given more than once");
+    }
     const std::string& first = unexpected.front();
     if (first.starts_with("-")) return "unknown option " + first;
     if (!app.get_subcommands().empty()) return "unexpected argument " + first;

@@ -25,7 +25,7 @@ struct Refinement {
     int samples;     // ... this many samples are added
 };
 inline constexpr int kBaseSamples = 2;
-inline constexpr Refinement kRefinements[] = {{0.11F, 4}, {0.25F, 8}};
+inline constexpr Refinement kRefinements[] = {{0.13F, 4}, {0.28F, 8}};
 
 // Fills `picture` with the means of samples and plane i of `shares` with the part of the samples
 // that count for it. look(x, y, scratch) takes a continuous position; `scratch` is a fresh Scratch

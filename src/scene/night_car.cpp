@@ -92,7 +92,7 @@ Vec3 shade_car(const Street& street, const Car& car, const SurfacePoint& at) {
         const bool rim = r < 0.215F && std::abs(p.x) > 0.8F;
         const Vec3 albedo = rim ? (spoke ? Vec3{0.17F, 0.17F, 0.18F} : Vec3{0.02F, 0.02F, 0.02F})
                                 : Vec3{0.015F, 0.015F, 0.015F};
-        return shade_matte(street, at, albedo, rim && spoke ? 0.4F : 0.1F);
+        return shade_matte(street, at, albedo, rim && spoke ? 0.08F : 0.04F);
     }
 
     // Glass: the upper band of the cabin, but for pillars.
@@ -143,6 +143,9 @@ Vec3 shade_car(const Street& street, const Car& car, const SurfacePoint& at) {
             albedo = {0.015F, 0.015F, 0.015F};  // grille
         }
     }
+    // Beams along the road graze the flanks of a row of cars; most of it lies in the shadow of the
+    // next car.
+    if (std::abs(n.x) > 0.5F) gloss *= mix(1.0F, 0.12F, smoothstep(0.5F, 0.85F, std::abs(n.x)));
     constexpr float kInversePi = 0.31830989F;
     Vec3 out = albedo * irradiance(street, at.position, at.normal) * kInversePi;
     out += glints(street, at.position, at.normal, to_eye, alpha, f0, false) * gloss;

@@ -265,7 +265,7 @@ void add_signal(float x, float z, Street& street) {
 
 Street build_street(std::uint64_t seed) {
     Street street;
-    Random houses(seed, 11);
+    Random houses(seed, 33);
     add_side(houses, -1, street);
     add_side(houses, 1, street);
     // The houses that close the street.
@@ -283,7 +283,7 @@ Street build_street(std::uint64_t seed) {
         add_lamp(-5.95F, -4.4F, z, street);
         if (z + 13.5F < kStreetEndZ) add_lamp(5.95F, 4.4F, z + 13.5F, street);
     }
-    Random traffic(seed, 12);
+    Random traffic(seed, 133);
     add_cars(traffic, street);
     add_sign(36, street);
     add_signal(5.75F, 62, street);
@@ -296,10 +296,10 @@ Street build_street(std::uint64_t seed) {
                                  0.05F,
                                  false});
     }
-    street.people = {{{7.0F, 0, 24}, 1.76F, 0.13F},
+    street.people = {{{7.0F, 0, 13.6F}, 1.76F, 0.13F},
                      {{-3.1F, 0, 14.6F}, 1.74F, 0.10F},
-                     {{-7.2F, 0, 27}, 1.68F, 0.10F},
-                     {{-6.7F, 0, 27.4F}, 1.82F, 0.12F},
+                     {{-7.0F, 0, 31}, 1.68F, 0.10F},
+                     {{-6.6F, 0, 31.5F}, 1.80F, 0.12F},
                      {{-6.9F, 0, 58}, 1.75F, 0.12F}};
     sort_lights(street);
     return street;

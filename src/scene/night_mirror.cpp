@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "aureole/base/parallel.h"
+#include "aureole/base/units.h"
 #include "scene/night_render.h"
 #include "scene/night_road.h"
 
@@ -12,7 +13,7 @@ constexpr int kSamples = 3;
 // The picture reaches below the visible one, for reflections that ripples fetch from there.
 constexpr double kExtraRows = 0.10;
 // Blur across, in columns: about what alpha = 0.2 does at ten metres.
-constexpr int kBlurRadius = 7;
+constexpr int kBlurRadius = 5;
 
 }  // namespace
 
@@ -27,8 +28,7 @@ MirrorPicture::MirrorPicture(const Street& street, const std::vector<Object>& ob
     View view = full;
     view.width = kColumns;
     view.height = rows_;
-    view.pitch_deg = std::atan(std::tan(full.pitch_deg * 3.14159265358979 / 180) / scale) * 180 /
-                     3.14159265358979;
+    view.pitch_deg = deg_from_rad(std::atan(std::tan(rad_from_deg(full.pitch_deg)) / scale));
     view.axis_x = full.axis_x * scale;
     view.axis_y = -horizon;
     axis_column_ = view.axis_x;

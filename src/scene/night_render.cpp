@@ -87,6 +87,7 @@ void render_street(const Street& street, const std::vector<Object>& objects, con
                    Image& picture, Image& sky_share) {
     const Tiles tiles(objects, camera, false);
     const MirrorPicture mirror(street, objects, camera);
+    const GroundLight light(street);
     constexpr int kSky = 0;
     constexpr int kGround = 1;
     Image shares(picture.width(), picture.height(), 2);
@@ -107,7 +108,8 @@ void render_street(const Street& street, const std::vector<Object>& objects, con
             sky_share.at(x, y) = shares.at(x, y, kSky);
             const float ground = shares.at(x, y, kGround);
             if (ground <= 0) continue;
-            const Vec3 add = ground_radiance(street, mirror, camera, x + 0.5, y + 0.5) * ground;
+            const Vec3 add =
+                ground_radiance(street, light, mirror, camera, x + 0.5, y + 0.5) * ground;
             picture.at(x, y, 0) += add.x;
             picture.at(x, y, 1) += add.y;
             picture.at(x, y, 2) += add.z;

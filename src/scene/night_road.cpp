@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "aureole/base/parallel.h"
 #include "scene/noise.h"
 
 namespace aureole::scene::night {
@@ -127,8 +128,34 @@ float under_cars(const Street& street, Vec3 p) {
 
 }  // namespace
 
-Vec3 ground_radiance(const Street& street, const MirrorPicture& mirror, const Camera& camera,
-                     double px, double py) {
+GroundLight::GroundLight(const Street& street)
+    : values_(static_cast<std::size_t>(kColumns) * static_cast<std::size_t>(kRows)) {
+    parallel_for(static_cast<std::size_t>(kRows), [&](std::size_t row, int) {
+        for (int i = 0; i < kColumns; ++i) {
+            const Vec3 p = {kStep * static_cast<float>(i) - kHalfWidth, 0,
+                            kStep * static_cast<float>(row)};
+            values_[row * kColumns + static_cast<std::size_t>(i)] = {
+                irradiance(street, p, {0, 1, 0}), under_cars(street, p)};
+        }
+    });
+}
+
+GroundLight::Value GroundLight::at(float x, float z) const {
+    const float u = std::clamp((x + kHalfWidth) / kStep, 0.0F, kColumns - 1.01F);
+    const float v = std::clamp(z / kStep, 0.0F, kRows - 1.01F);
+    const auto i = static_cast<std::size_t>(u);
+    const auto j = static_cast<std::size_t>(v);
+    const Value* p = &values_[j * kColumns + i];
+    const float s = u - static_cast<float>(i);
+    const float t = v - static_cast<float>(j);
+    const auto between = [](const Value& a, const Value& b, float weight) {
+        return Value{mix(a.irradiance, b.irradiance, weight), mix(a.open, b.open, weight)};
+    };
+    return between(between(p[0], p[1], s), between(p[kColumns], p[kColumns + 1], s), t);
+}
+
+Vec3 ground_radiance(const Street& street, const GroundLight& light, const MirrorPicture& mirror,
+                     const Camera& camera, double px, double py) {
     const Ray ray = camera.ray(px, py);
     if (ray.direction.y > -1e-4F) return {};
     const float t = -ray.origin.y / ray.direction.y;
@@ -152,8 +179,8 @@ Vec3 ground_radiance(const Street& street, const MirrorPicture& mirror, const Ca
 
     constexpr float kInversePi = 0.31830989F;
     constexpr float kWater = 0.0204F;
-    const float open = under_cars(street, p);
-    Vec3 out = m.albedo * irradiance(street, p, {0, 1, 0}) * (kInversePi * open);
+    const auto [arriving, open] = light.at(p.x, p.z);
+    Vec3 out = m.albedo * arriving * (kInversePi * open);
     out += glints(street, p, normal, to_eye, alpha, kWater, true) * (m.film * (0.3F + 0.7F * open));
 
     const float cosine = std::max(to_eye.y + 0.35F * alpha, 0.0F);

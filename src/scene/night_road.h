@@ -19,7 +19,7 @@ class MirrorPicture {
     Vec3 mean(float u, float v, float half_height, float across) const;
 
   private:
-    static constexpr int kColumns = 960;
+    static constexpr int kColumns = 720;
     const double* sums(int blurred, int row) const;
     Vec3 box(float column, float low, float high, float across) const;
 
@@ -30,8 +30,26 @@ class MirrorPicture {
     std::vector<double> sums_[2];
 };
 
+// Irradiance of the ground, tabulated: it changes slowly.
+class GroundLight {
+  public:
+    struct Value {
+        Vec3 irradiance;
+        float open;  // share of light and sky that cars above leave
+    };
+    explicit GroundLight(const Street& street);
+    Value at(float x, float z) const;
+
+  private:
+    static constexpr float kStep = 0.25F;  // m
+    static constexpr float kHalfWidth = 12;
+    static constexpr int kColumns = static_cast<int>(2 * kHalfWidth / kStep) + 2;
+    static constexpr int kRows = static_cast<int>(kStreetEndZ / kStep) + 2;
+    std::vector<Value> values_;
+};
+
 // Radiance of the ground at a continuous pixel position below the horizon.
-Vec3 ground_radiance(const Street& street, const MirrorPicture& mirror, const Camera& camera,
-                     double x, double y);
+Vec3 ground_radiance(const Street& street, const GroundLight& light, const MirrorPicture& mirror,
+                     const Camera& camera, double x, double y);
 
 }  // namespace aureole::scene::night

@@ -31,6 +31,7 @@ float room_brightness(float u, float v, float width, float height, Vec3 directio
     const float low_v = -0.85F;
     const float high_v = height + 0.35F;
     float t = depth / inward;
+    bool side = false;
     ceiling = false;
     const float to_u = direction.x > 0 ? (high_u - u) / std::max(direction.x, 1e-6F)
                                        : (low_u - u) / std::min(direction.x, -1e-6F);
@@ -39,10 +40,12 @@ float room_brightness(float u, float v, float width, float height, Vec3 directio
     float facing = 1;
     if (to_u < t) {
         t = to_u;
+        side = true;
         facing = 0.8F;
     }
     if (to_v < t) {
         t = to_v;
+        side = false;
         ceiling = direction.y > 0;
         facing = ceiling ? 1.15F : 0.45F;
     }
@@ -51,6 +54,8 @@ float room_brightness(float u, float v, float width, float height, Vec3 directio
     const Vec3 at = {hit_u, hit_v, -inward * t};
     const Vec3 lamp = {0.5F * width, high_v - 0.45F, -0.55F * depth};
     const Vec3 d = lamp - at;
+    // Side walls continue the coordinate of the back wall towards the window.
+    if (side) hit_u += (direction.x > 0 ? 1.0F : -1.0F) * (depth - inward * t);
     return facing * 1.9F / (0.8F + dot(d, d));
 }
 

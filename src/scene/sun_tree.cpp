@@ -101,16 +101,17 @@ void grow(Tree& tree, Vec3 from, Vec3 direction, float length_m, float radius, i
 
 void add_tree(const Camera& camera, Random& random, std::vector<Stroke>& strokes) {
     Tree tree{camera, random, strokes};
-    // Roots spread at the foot.
+    // The foot widens towards the roots.
     const Vec3 bark = Vec3{0.075F, 0.060F, 0.045F} * sky_illuminance() * (0.7F * kInversePi);
-    for (int i = 0; i < 7; ++i) {
-        const float angle = 0.9F * static_cast<float>(i) + 0.2F;
-        const Vec3 out = {std::cos(angle), 0, std::sin(angle)};
-        project_stroke(camera, kTreeFoot + out * 0.10F + Vec3{0, 0.62F, 0},
-                       kTreeFoot + out * uniform(random, 0.36, 0.50), 0.185F, 0.04F, bark, -0.45F,
-                       strokes);
+    const float widths[] = {0.58F, 0.44F, 0.36F, 0.32F, kTrunkRadius};
+    const float heights[] = {-0.02F, 0.13F, 0.32F, 0.62F, 1.0F};
+    for (int i = 0; i < 4; ++i) {
+        // A little overlap hides the seams.
+        project_stroke(camera, kTreeFoot + Vec3{0, heights[i], 0},
+                       kTreeFoot + Vec3{0, heights[i + 1] + 0.05F, 0}, widths[i], widths[i + 1],
+                       bark, -0.45F, strokes, true);
     }
-    grow(tree, kTreeFoot + Vec3{0, 0.30F, 0}, {0.02F, 1, 0}, 2.5F, kTrunkRadius, 0);
+    grow(tree, kTreeFoot + Vec3{0, 0.95F, 0}, {0.02F, 1, 0}, 1.9F, kTrunkRadius, 0);
 }
 
 float fence_x(float z) { return -4.4F - 0.02F * z + 0.9F * std::sin(z * 0.05F); }

@@ -1,0 +1,122 @@
+// aureole psf: kernels for this and other tools.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "program.h"
+
+namespace aureole::cli {
+namespace {
+
+double sum_of(const Image& image, int c) {
+    double sum = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i) sum += image.plane(c)[i];
+    return sum;
+}
+
+class PsfFile : public CliTest {
+  protected:
+    // The kernel and its attribute account for all the energy, in every colour.
+    void expect_complete(const std::string& name) const {
+        const io::Picture psf = read(name);
+        for (int c = 0; c < 3; ++c) {
+            const std::string attribute =
+                std::string("aureole:off_kernel_energy_") + "rgb"[static_cast<std::size_t>(c)];
+            const float off = psf.float_attribute(attribute).value_or(-1);
+            EXPECT_GE(off, 0) << attribute;
+            EXPECT_NEAR(sum_of(psf.image(), c) + off, 1, 1e-4) << attribute;
+        }
+    }
+};
+
+TEST_F(PsfFile, SumsToItsShareOfTheEnergy) {
+    ASSERT_EQ(run("psf -o k.exr --size 129 --pupil 6 --fov 60 --width 480").exit_code, 0);
+    const io::Picture psf = read("k.exr");
+    EXPECT_EQ(psf.image().width(), 129);
+    EXPECT_EQ(psf.image().height(), 129);
+    expect_complete("k.exr");
+    EXPECT_GT(sum_of(psf.image(), 1), 0.8);
+    const float pitch = psf.float_attribute("aureole:pitch_deg").value_or(0);
+    EXPECT_NEAR(pitch, std::atan(2 * std::tan(M_PI / 6) / 480) * 180 / M_PI, 1e-6);
+    const float off = psf.float_attribute("aureole:off_kernel_energy").value_or(0);
+    EXPECT_GT(off, 0);
+    EXPECT_LT(off, 0.2);
+    EXPECT_EQ(psf.string_attribute("aureole:projection"), "perspective");
+}
+
+TEST_F(PsfFile, AtConstantPitch) {
+    ASSERT_EQ(run("psf -o k.exr --size 65 --pupil 4 --fov 20 --width 200").exit_code, 0);
+    EXPECT_NEAR(read("k.exr").float_attribute("aureole:pitch_deg").value_or(0), 0.1, 1e-6);
+    EXPECT_EQ(read("k.exr").string_attribute("aureole:projection"), "constant-pitch");
+    expect_complete("k.exr");
+}
+
+class PsfComponent : public PsfFile, public testing::WithParamInterface<std::string> {};
+
+TEST_P(PsfComponent, HasUnitEnergyAndAPicture) {
+    const Outcome outcome =
+        run("psf -o k.exr -o k.png --size 65 --pupil 7 --component " + GetParam());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_complete("k.exr");
+    const Image picture = read("k.png").image();
+    EXPECT_EQ(picture.width(), 65);
+    EXPECT_GT(largest(picture), 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, PsfComponent,
+                         testing::Values("all", "bloom", "corona", "halo", "streaks", "joint"),
+                         [](const auto& test_case) { return test_case.param; });
+
+// In the picture of a kernel the source is the brightest, and nothing is burnt out around it.
+TEST_F(PsfFile, PictureIsLogarithmic) {
+    ASSERT_EQ(run("psf -o k.png --size 129 --pupil 5").exit_code, 0);
+    const Image picture = read("k.png").image();
+    EXPECT_GT(picture.at(64, 64, 1), 0.9);
+    EXPECT_GT(picture.at(64, 20, 1), 0.01);
+    EXPECT_LT(picture.at(64, 20, 1), 0.6);
+}
+
+TEST_F(PsfFile, DependsOnTheEyeAndTheSeed) {
+    const std::string command = "psf --size 33 --pupil 5 -o ";
+    ASSERT_EQ(run(command + "a.exr").exit_code, 0);
+    ASSERT_EQ(run(command + "b.exr --threads 1").exit_code, 0);
+    ASSERT_EQ(run(command + "c.exr --seed 2").exit_code, 0);
+    ASSERT_EQ(run(command + "d.exr --age 75").exit_code, 0);
+    const Image a = read("a.exr").image();
+    EXPECT_TRUE(identical(a, read("b.exr").image()));
+    EXPECT_FALSE(identical(a, read("c.exr").image()));
+    EXPECT_LT(sum_of(read("d.exr").image(), 1), sum_of(a, 1));  // older eyes scatter farther
+}
+
+// A kernel of full reach is the eye that glare would make by itself.
+TEST_F(PsfFile, AppliedByGlareIsTheEyeItself) {
+    for (const std::string& view : {std::string("--fov 60"), std::string("--fov 25")}) {
+        ASSERT_EQ(run("scene bars --width 48 --height 27 -o in.exr").exit_code, 0);
+        ASSERT_EQ(run("psf -o k.exr --size 95 --width 48 --pupil 5 " + view).exit_code, 0);
+        ASSERT_EQ(run("glare in.exr -o eye.exr --pupil 5 " + view).exit_code, 0);
+        ASSERT_EQ(run("glare in.exr -o file.exr --psf k.exr " + view).exit_code, 0);
+        const Image eye = read("eye.exr").image();
+        EXPECT_LT(largest_difference(eye, read("file.exr").image()), 1e-5 * largest(eye)) << view;
+        EXPECT_GT(largest_difference(eye, read("in.exr").image()), 1e-2 * largest(eye)) << view;
+    }
+}
+
+TEST_F(PsfFile, ForOtherPixelsIsRefused) {
+    write("in.exr", noise(48, 27, 3));
+    ASSERT_EQ(run("psf -o k.exr --size 9 --width 48 --pupil 5 --fov 60").exit_code, 0);
+    for (const char* view : {"--fov 50", "--fov 60 --perspective off"}) {
+        const Outcome outcome = run(std::string("glare in.exr -o out.exr --psf k.exr ") + view);
+        EXPECT_EQ(outcome.exit_code, 1) << view;
+        EXPECT_TRUE(names_all(outcome.err, {"k.exr", "deg", "--fov"})) << view;
+    }
+    EXPECT_FALSE(exists("out.exr"));
+}
+
+TEST_F(PsfFile, AdaptationThatIsAssumedIsSaid) {
+    EXPECT_TRUE(names_all(run("psf -o k.exr --size 9").err, {"note:", "10 cd/m2"}));
+    EXPECT_EQ(run("psf -o k.exr --size 9 --adaptation 10").err, "");
+}
+
+}  // namespace
+}  // namespace aureole::cli
