@@ -65,7 +65,9 @@ Scene make_night_street(const SceneOptions& options, const View& view) {
     const std::vector<Object> objects = list_objects(street);
     const Camera camera(view, kEye, kEyePitchDeg);
 
-    Scene scene{Image(view.width, view.height, 3), view, 0, 4};
+    // White with glare in mind: the veil of the headlamps lifts the whole street.
+    constexpr double kDisplayWhite = 8;  // cd/m2
+    Scene scene{Image(view.width, view.height, 3), view, 0, kDisplayWhite};
     Image sky_share(view.width, view.height, 1);
     render_street(street, objects, camera, scene.rgb, sky_share);
     scene.adaptation_cd_m2 = mean_luminance(scene.rgb, 0.99);

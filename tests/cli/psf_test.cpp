@@ -56,7 +56,7 @@ class PsfComponent : public PsfFile, public testing::WithParamInterface<std::str
 
 TEST_P(PsfComponent, HasUnitEnergyAndAPicture) {
     const Outcome outcome =
-        run("psf -o k.exr -o k.png --size 65 --pupil 7 --component " + GetParam());
+        run("psf -o k.exr -o k.png --size 65 --width 480 --pupil 7 --component " + GetParam());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     expect_complete("k.exr");
     const Image picture = read("k.png").image();

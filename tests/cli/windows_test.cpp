@@ -100,13 +100,13 @@ TEST_F(Windows, DisplayFilesShowTheDisplayWindow) {
 
 TEST_F(Windows, MetadataIsKept) {
     io::Picture picture(noise(16, 12, 3));
-    picture.set_attribute("owner", std::string("a lighthouse"));
+    picture.set_attribute("Copyright", std::string("a lighthouse"));
     picture.set_attribute("lamp:height_m", 23.5F);
     picture.set_pixel_aspect_ratio(2);
     write("in.exr", picture);
     ASSERT_EQ(run("glare in.exr -o out.exr --psf k.exr").exit_code, 0);
     const io::Picture out = read("out.exr");
-    EXPECT_EQ(out.string_attribute("owner"), "a lighthouse");
+    EXPECT_EQ(out.string_attribute("Copyright"), "a lighthouse");
     EXPECT_EQ(out.float_attribute("lamp:height_m"), 23.5F);
     EXPECT_EQ(out.pixel_aspect_ratio(), 2);
 }
