@@ -59,9 +59,9 @@ function(aureole_module name)
                                    ${PROJECT_SOURCE_DIR}/tests)
         target_link_libraries(${name}_test PRIVATE ${target} ${arg_PRIVATE_LIBS} ${arg_TEST_LIBS}
                               aureole_options GTest::gtest_main GTest::gmock)
-        gtest_discover_tests(${name}_test TEST_FILTER "-*Slow.*"
+        gtest_discover_tests(${name}_test NO_PRETTY_VALUES TEST_FILTER "-*Slow.*"
                              DISCOVERY_TIMEOUT 60 PROPERTIES LABELS unit)
-        gtest_discover_tests(${name}_test TEST_FILTER "*Slow.*" TEST_LIST ${name}_test_slow
+        gtest_discover_tests(${name}_test NO_PRETTY_VALUES TEST_FILTER "*Slow.*" TEST_LIST ${name}_test_slow
                              DISCOVERY_TIMEOUT 60 PROPERTIES LABELS slow)
     endif()
 endfunction()

@@ -124,7 +124,9 @@ void Components::finish_stage(double EyePsfTimings::*stage, double fraction) {
     if (timings_ != nullptr) timings_->*stage += now - stage_start_;
     stage_start_ = now;
     if (progress_ == nullptr) return;
-    progress_->report("eye psf", fraction);
+    // Components come in any order: what is done stays done.
+    fraction_done_ = std::max(fraction_done_, fraction);
+    progress_->report("eye psf", fraction_done_);
     if (progress_->cancelled()) throw Cancelled();
 }
 

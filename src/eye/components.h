@@ -52,6 +52,7 @@ class Components {
     Progress* progress_;
     EyePsfTimings* timings_;
     double stage_start_;
+    double fraction_done_ = 0;
     std::vector<SpectralLevel> levels_;
     wave::KernelGrid patch_;
     fourier::Fft2d fft_;

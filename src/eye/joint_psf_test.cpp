@@ -53,11 +53,12 @@ TEST(JointPsf, HasUnitEnergyInEveryPropagation) {
         options.defocus_dioptres = 0.5;
         const wave::Psf psf = joint_psf({}, kGrid, options);
         for (std::size_t c = 0; c < 3; ++c) {
-            double sum = psf.off_kernel_energy[c];
+            double sum = 0;
             for (std::size_t i = 0; i < psf.kernel.pixels(); ++i) {
                 sum += static_cast<double>(psf.kernel.plane(static_cast<int>(c))[i]);
             }
-            EXPECT_NEAR(sum, 1, 1e-6);
+            EXPECT_NEAR(sum, 1, 1e-3);  // the kernel reaches beyond the band of every wavelength
+            EXPECT_NEAR(sum + psf.off_kernel_energy[c], 1, 1e-6);
         }
     }
 }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kDarknessCdM2 = 1e-6;
 constexpr double kSphereDeg2 = 41253;
+constexpr double kNarrowestMm = 1.2;
 
 constexpr struct {
     std::string_view name;
@@ -69,7 +70,8 @@ double pupil_diameter_mm(PupilModel model, double luminance_cd_m2,
             return 4.9 - 3 * std::tanh(0.4 * decades - 0.00114);
         case PupilModel::kDeGroot: {
             const double x = 7.597 + decades;
-            return 7.175 * std::exp(-0.00092 * x * x * x);
+            // Without a lower end, the cubic would close the eye in sunlight.
+            return std::max(7.175 * std::exp(-0.00092 * x * x * x), kNarrowestMm);
         }
         case PupilModel::kThesis:
             return 4.9 - 3 * std::tanh(0.4 * (decades + 1));

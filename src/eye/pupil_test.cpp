@@ -71,6 +71,15 @@ TEST(Pupil, NarrowsWithLightInEveryModel) {
     }
 }
 
+TEST(Pupil, StaysOpenInAnyLight) {
+    for (const auto model : {PupilModel::kWatsonYellott, PupilModel::kMoonSpencer,
+                             PupilModel::kDeGroot, PupilModel::kThesis}) {
+        for (const double luminance : {1e5, 1e7, 1.6e9}) {
+            EXPECT_GE(pupil_diameter_mm(model, luminance), 1.2) << name_of(model);
+        }
+    }
+}
+
 TEST(Pupil, IsWiderForOneEyeASmallerFieldAndAYoungerPerson) {
     const double base = pupil_diameter_mm(PupilModel::kWatsonYellott, 10);
     PupilConditions one_eye;

@@ -4,7 +4,7 @@
 //     perspective:     D(theta) cos^3(theta) / f^2,          theta = atan(rho / f)
 //     constant pitch:  D(theta) sin(theta) / theta * p^2,    theta = rho p  (azimuthal equidistant)
 // and a pixel holds its integral over the unit square. The core of the eye's PSF is 0.005 deg
-// wide, a tenth of a usual pixel, so the square around the source is the exact complement of the
+// wide, a seventh of a usual pixel, so the square around the source is the exact complement of the
 // energy outside it, the pixels next to it are subdivided until they have converged, and those
 // farther than kExactRadius come from a table over rho.
 #pragma once
@@ -43,7 +43,7 @@ class ScatterPixels {
     double focal_length_px_;
     double off_kernel_energy_;
     std::vector<float> near_;   // (kExactRadius + 1)^2
-    std::vector<float> table_;  // over the squared distance, see table_position()
+    std::vector<float> table_;  // over the squared distance, from table_node(kExactRadius^2)
 };
 
 }  // namespace aureole::eye

@@ -85,8 +85,9 @@ LinePlan::LinePlan(int n) : length(n) {
 
 int best_length(int n) {
     int best = next_smooth(n);
-    for (int candidate = best; candidate <= n + n / 16 + 1;
-         candidate = next_smooth(candidate + 1)) {
+    const int longest = std::min(n + n / 16 + 1, kMaxTransformSize);
+    for (int candidate = best; candidate <= longest; ++candidate) {
+        if (!is_smooth(candidate)) continue;
         if (cost(candidate) < cost(best)) best = candidate;
     }
     return best;

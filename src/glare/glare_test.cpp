@@ -94,7 +94,7 @@ TEST(Glare, AgreesWithTheDirectMethod) {
             direct.method = Method::kDirect;
             Glare(view, 3, psf).apply(in, out);
             Glare(view, 3, psf, direct).apply(in, expected);
-            expect_near(out, expected, 1e-5 * 1000);
+            expect_near(out, expected, 1e-6 * 1000);
         }
     }
 }

@@ -22,8 +22,11 @@ std::vector<Overlap> overlaps(int samples, double pixels_per_sample, int pixels)
     for (int i = 0; i < samples; ++i) {
         const double low = (i - samples / 2 - 0.5) * pixels_per_sample + pixels / 2.0;
         const double high = low + pixels_per_sample;
-        const int first = std::max(0, static_cast<int>(std::floor(low)));
-        const int end = std::min(pixels, static_cast<int>(std::ceil(high)));
+        const auto within = [&](double x) {
+            return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(pixels)));
+        };
+        const int first = within(std::floor(low));
+        const int end = within(std::ceil(high));
         Overlap& overlap = result[static_cast<std::size_t>(i)];
         overlap.first = first;
         for (int p = first; p < end; ++p) {

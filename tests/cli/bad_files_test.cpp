@@ -20,9 +20,13 @@ class BadInput : public CliTest, public testing::WithParamInterface<std::string>
             std::filesystem::create_directory(file("bad"));
             return "bad";
         }
+        if (kind == "no_pixels") {
+            write_bytes("bad.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 0 +X 0\n");
+            return "bad.hdr";
+        }
         if (kind == "text") write_bytes("bad.exr", "This is no picture.\n");
         if (kind == "empty") write_bytes("bad.exr", "");
-        if (kind == "truncated" || kind == "header only") {
+        if (kind == "truncated" || kind == "header_only") {
             write("whole.exr", noise(64, 48, 3));
             const std::string whole = bytes("whole.exr");
             std::filesystem::remove(file("whole.exr"));
@@ -40,21 +44,18 @@ TEST_P(BadInput, IsNamedAndLeavesNothing) {
     for (const std::string& words :
          {"glare " + bad + " -o out.exr --psf k.exr", "glare in.exr -o out.exr --psf " + bad,
           "glare in.exr -o out.exr --psf k.exr --matte " + bad}) {
-        const Outcome outcome = run(words);
+        const Outcome outcome = run(words + " --json");
         EXPECT_EQ(outcome.exit_code, 1) << words;
-        EXPECT_EQ(outcome.out, "") << words;
+        EXPECT_EQ(outcome.out, "") << words;  // no half report
         EXPECT_TRUE(names_all(outcome.err, {bad})) << words;
         EXPECT_EQ(folder_.names(), before) << words;
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kind, BadInput,
-                         testing::Values("missing", "folder", "text", "empty", "truncated",
-                                         "header only"),
-                         [](const auto& test_case) {
-                             return test_case.param == "header only" ? std::string("header_only")
-                                                                     : test_case.param;
-                         });
+                         testing::Values("missing", "folder", "text", "empty", "no_pixels",
+                                         "truncated", "header_only"),
+                         [](const auto& test_case) { return test_case.param; });
 
 class BadOutput : public CliTest {
   protected:

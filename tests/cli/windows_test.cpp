@@ -98,6 +98,25 @@ TEST_F(Windows, DisplayFilesShowTheDisplayWindow) {
     EXPECT_EQ(read("both.png").image().height(), kDisplay.height);
 }
 
+// Every pixel of them is where it belongs.
+TEST_F(Windows, DisplayFilesAreCutWithoutAShift) {
+    io::Picture picture(point(kData.width, kData.height, 3, 16 + 10, 12 + 20, 1));
+    picture.set_data_origin(kData.x, kData.y);
+    picture.set_display_window(kDisplay);
+    write("in.exr", picture);
+    write("one.exr", constant(1, 1, 3, 1));
+    ASSERT_EQ(run("glare in.exr -o out.png --side-by-side both.png --tone-map none --psf one.exr")
+                  .exit_code,
+              0);
+    const Image out = read("out.png").image();
+    EXPECT_EQ(out.at(10, 20), 1);
+    EXPECT_EQ(out.at(26, 32), 0);
+    const Image both = read("both.png").image();
+    EXPECT_EQ(both.at(10, 20), 1);
+    EXPECT_EQ(both.at(kDisplay.width + 4 + 10, 20), 1);
+    EXPECT_EQ(both.at(26, 32), 0);
+}
+
 TEST_F(Windows, MetadataIsKept) {
     io::Picture picture(noise(16, 12, 3));
     picture.set_attribute("Copyright", std::string("a lighthouse"));
