@@ -89,6 +89,56 @@ TEST(EyePsf, LooksConserveEnergyAndRaiseWhatTheyName) {
     EXPECT_GT(contrast(vivid), 2 * contrast(plain));
 }
 
+// What the streaks hold within the kernel is taken from the scatter term, and so from its wings.
+TEST(EyePsf, StreaksHoldTheShareOfThePupilThatLashesBlock) {
+    Eye eye;
+    eye.corona_contrast = 0;
+    eye.halo = 0;
+    const EyePsfOptions options = small();
+    const wave::Mask pupil = draw_pupil(eye, options.aperture);
+    const wave::Mask lashes = draw_lashes(eye, options.aperture);
+    double open = 0;
+    double blocked = 0;
+    for (std::size_t i = 0; i < options.aperture.size(); ++i) {
+        open += static_cast<double>(pupil.values[i]);
+        blocked += static_cast<double>(pupil.values[i] * lashes.values[i]);
+    }
+    EXPECT_GT(blocked, 0.01 * open);
+    const wave::Psf streaks = eye_component(Component::kStreaks, eye, grid_129(), options);
+    for (const double scale : {1.0, 2.0}) {
+        eye.streaks = scale;
+        const wave::Psf with = eye_psf(eye, grid_129(), options);
+        eye.streaks = 0;
+        const wave::Psf without = eye_psf(eye, grid_129(), options);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double taken = 1 - with.off_kernel_energy[c] / without.off_kernel_energy[c];
+            const double inside = 1 - streaks.off_kernel_energy[c];
+            EXPECT_NEAR(taken, scale * blocked / open * inside, 1e-5);
+        }
+    }
+}
+
+// Light of one wavelength behind many particles is fully developed speckle: its intensity is
+// exponentially distributed, with a deviation equal to its mean (Goodman, "Speckle Phenomena in
+// Optics", section 3.2). Pixels as fine as the samples of the transform average nothing away.
+TEST(EyePsf, CoronaOfOneWavelengthIsFullyDevelopedSpeckle) {
+    Eye eye;
+    eye.halo = 0;
+    eye.streaks = 0;
+    EyePsfOptions options = small();
+    options.spectral.single_wavelength_nm = 555;
+    const double pitch_deg = deg_from_rad(555e-6 / options.aperture.extent_mm);
+    const wave::KernelGrid grid = {257, 257, pitch_deg, Projection::kPerspective};
+    const wave::Psf psf = eye_psf(eye, grid, options);
+    eye.corona_contrast = 0;
+    const wave::Psf smooth = eye_psf(eye, grid, options);
+    const Ring texture = ring_statistics(grid, 0.2, 0.4, [&](int x, int y) {
+        return static_cast<double>(psf.kernel.at(x, y, 1) / smooth.kernel.at(x, y, 1));
+    });
+    EXPECT_NEAR(texture.mean, 1, 0.01);
+    EXPECT_NEAR(texture.deviation, 1, 0.08);
+}
+
 TEST(EyePsf, GivesAtMostHalfOfTheLightToHaloAndStreaks) {
     Eye eye;
     eye.pupil_diameter_mm = 3;
@@ -283,6 +333,22 @@ TEST(EyePsf, CanBeCancelled) {
         bool cancelled() const override { return true; }
     } stop;
     EXPECT_THROW(eye_psf({}, grid_129(), small(), &stop), Cancelled);
+}
+
+TEST(EyePsf, ProgressOnlyGrows) {
+    class Watch : public Progress {
+      public:
+        void report(std::string_view, double fraction) override {
+            EXPECT_GE(fraction, last);
+            last = fraction;
+        }
+        double last = 0;
+    } watch;
+    Eye eye;
+    eye.scatter = ScatterModel::kNone;
+    eye.pupil_diameter_mm = 6;
+    eye_psf(eye, grid_129(), small(), &watch);
+    EXPECT_EQ(watch.last, 1);
 }
 
 TEST(CoronaTexture, KeepsTheEnergyOfEveryRing) {

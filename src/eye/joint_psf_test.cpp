@@ -63,6 +63,29 @@ TEST(JointPsf, HasUnitEnergyInEveryPropagation) {
     }
 }
 
+TEST(JointPsf, LashesTakeTheLightThatTheyBlock) {
+    Eye eye = bare_eye();
+    const JointPsfOptions options = small();
+    const auto light = [&] {
+        const wave::Field field = draw_joint_aperture(eye, options);
+        double sum = 0;
+        for (std::size_t i = 0; i < field.grid.size(); ++i) {
+            sum += static_cast<double>(field.re[i]);
+        }
+        return sum;
+    };
+    const double open = light();
+    eye.eyelashes = 7;
+    const wave::Mask pupil = draw_pupil(eye, options.aperture);
+    const wave::Mask lashes = draw_lashes(eye, options.aperture);
+    double blocked = 0;
+    for (std::size_t i = 0; i < pupil.grid.size(); ++i) {
+        blocked += static_cast<double>(pupil.values[i] * lashes.values[i]);
+    }
+    EXPECT_GT(blocked, 0.01 * open);
+    EXPECT_NEAR((open - light()) / blocked, 1, 1e-3);
+}
+
 TEST(JointPsf, WithoutDefocusIsFraunhofer) {
     JointPsfOptions options = small();
     const wave::Psf focused = joint_psf({}, kGrid, options);

@@ -99,7 +99,8 @@ TEST_F(Report, PupilFollowsTheLuminanceOfThePicture) {
     write("dark.exr", constant(16, 12, 3, 0.01F));
     write("bright.exr", constant(16, 12, 3, 10));
     const auto pupil = [&](const std::string& words) {
-        return report("glare " + words + " -o out.exr")["parameters"]["pupil_mm"].get<double>();
+        return report("glare " + words + " -o out.exr" + kPlainEye)["parameters"]["pupil_mm"]
+            .get<double>();
     };
     const double dark = pupil("dark.exr");
     const double bright = pupil("bright.exr");

@@ -116,11 +116,12 @@ TEST_F(Sequence, EnergyAndBadPixelsAreSummed) {
 TEST_F(Sequence, KeepsTheEyeOfItsFirstFrame) {
     write("shot.1.exr", constant(16, 12, 3, 0.01F));
     write("shot.2.exr", constant(16, 12, 3, 10));
-    const auto both = report("glare shot.%d.exr -o out.%d.exr --frames 1-2")["parameters"];
-    const auto first = report("glare shot.1.exr -o first.exr")["parameters"];
+    const auto both =
+        report("glare shot.%d.exr -o out.%d.exr --frames 1-2" + kPlainEye)["parameters"];
+    const auto first = report("glare shot.1.exr -o first.exr" + kPlainEye)["parameters"];
     EXPECT_EQ(both["pupil_mm"], first["pupil_mm"]);
     const std::string pupil = both["pupil_mm"].dump();
-    ASSERT_EQ(run("glare shot.2.exr -o second.exr --pupil " + pupil).exit_code, 0);
+    ASSERT_EQ(run("glare shot.2.exr -o second.exr" + kPlainEye + "--pupil " + pupil).exit_code, 0);
     EXPECT_TRUE(identical(read("out.2.exr").image(), read("second.exr").image()));
 }
 
@@ -130,12 +131,21 @@ TEST_F(Sequence, SeveralPicturesAreIndependent) {
     write("a.exr", constant(16, 12, 3, 0.01F));
     write("b.exr", constant(16, 12, 3, 10));
     write("c.exr", noise(8, 20, 1), {"Y"});
-    ASSERT_EQ(run("glare a.exr b.exr c.exr -o dir").exit_code, 0);
+    ASSERT_EQ(run("glare a.exr b.exr c.exr -o dir" + kPlainEye).exit_code, 0);
     for (const std::string& name :
          {std::string("a.exr"), std::string("b.exr"), std::string("c.exr")}) {
-        ASSERT_EQ(run("glare " + name + " -o alone.exr").exit_code, 0);
+        ASSERT_EQ(run("glare " + name + " -o alone.exr" + kPlainEye).exit_code, 0);
         EXPECT_TRUE(identical(read("dir/" + name).image(), read("alone.exr").image())) << name;
     }
+}
+
+TEST_F(Sequence, ColourAndGreyOfOneSizeMayBeMixed) {
+    std::filesystem::create_directory(file("dir"));
+    write("a.exr", noise(16, 12, 3));
+    write("b.exr", noise(16, 12, 1), {"Y"});
+    ASSERT_EQ(run("glare a.exr b.exr -o dir --psf k.exr").exit_code, 0);
+    ASSERT_EQ(run("glare b.exr -o alone.exr --psf k.exr").exit_code, 0);
+    EXPECT_TRUE(identical(read("dir/b.exr").image(), read("alone.exr").image()));
 }
 
 TEST_F(Sequence, SeveralPicturesOfOneNameAreRefused) {

@@ -11,8 +11,8 @@ enum class PupilModel {
     kWatsonYellott,
     // Moon & Spencer 1944: 4.9 - 3 tanh(0.4 log10 L - 0.00114), L in cd/m2.
     kMoonSpencer,
-    // De Groot & Gebhard 1952: 7.175 exp(-0.00092 (7.597 + log10 L)^3), at least 1.2 mm (the formula
-    // falls below that from 7e4 cd/m2 on, beyond its data).
+    // De Groot & Gebhard 1952: 7.175 exp(-0.00092 (7.597 + log10 L)^3), at least 1.2 mm, below
+    // which the formula falls from 8e4 cd/m2 on.
     kDeGroot,
     // As printed in the thesis (eq. 2.14): 4.9 - 3 tanh(0.4 (log10 L + 1)). This is Moon & Spencer
     // with a slip of units by one decade: pupils are up to 1.1 mm too small. For comparison only.
