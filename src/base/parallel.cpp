@@ -69,20 +69,31 @@ int thread_count() noexcept {
     return std::clamp(static_cast<int>(limit), 1, max_workers());
 }
 
+namespace {
+
+// Of our own, so that worker indices stay below max_workers() whatever arena the caller is in.
+tbb::task_arena& arena() {
+    static tbb::task_arena own(max_workers());
+    return own;
+}
+
+}  // namespace
+
 void detail::parallel_for(std::size_t count, LoopBody body, void* context) {
     Moment begin;
     Moment end;
     const ObserveAtExit after{end};
     begin.announce();
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            begin.observe();
-            const AnnounceAtExit body_done{end};
-            const int worker = std::max(0, tbb::this_task_arena::current_thread_index());
-            for (std::size_t i = range.begin(); i != range.end(); ++i) body(context, i, worker);
-        },
-        tbb::simple_partitioner());
+    const auto run = [&](const tbb::blocked_range<std::size_t>& range) {
+        begin.observe();
+        const AnnounceAtExit body_done{end};
+        const int worker = std::max(0, tbb::this_task_arena::current_thread_index());
+        for (std::size_t i = range.begin(); i != range.end(); ++i) body(context, i, worker);
+    };
+    arena().execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), run,
+                          tbb::simple_partitioner());
+    });
 }
 
 }  // namespace aureole

@@ -41,6 +41,7 @@ void check(const Eye& eye) {
     check_particles("cornea", anatomy.cornea);
     require("particle_disc_radius", anatomy.particle_disc_radius_mm, 0.5, 5, " mm");
     require("pupil_irregularity", anatomy.pupil_irregularity, 0, 0.1, "");
+    require("lower_lid_share", anatomy.lower_lid_share, 0, 0.5, "");
     require("gratings", anatomy.gratings.fibres, 1, 10000, " fibres");
     require("grating phase", anatomy.gratings.phase_rad, 0, 3, " rad");
     require("grating inner radius", anatomy.gratings.inner_radius_mm, 0.05, 5, " mm");

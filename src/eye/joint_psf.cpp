@@ -53,27 +53,13 @@ void add_pattern(const wave::PatternIntegral& pattern, double extent_mm,
     }
 }
 
-// |F|^2 as it is. PatternIntegral::from_transform() undoes the box filter of the samples, which
-// masks have and a quadratic phase, multiplied sample by sample, has not: it would make the rim of
-// a defocused disc up to six times too bright.
-wave::PatternIntegral unfiltered(const wave::Field& transform) {
-    const auto n = static_cast<std::size_t>(transform.grid.samples);
-    Buffer pattern(n * n);
-    parallel_for(n, [&](std::size_t j, int) {
-        const float* re = transform.re.data() + j * n;
-        const float* im = transform.im.data() + j * n;
-        float* out = pattern.data() + (j + n / 2) % n * n;
-        for (std::size_t i = 0; i < n; ++i) out[(i + n / 2) % n] = re[i] * re[i] + im[i] * im[i];
-    });
-    return {pattern.data(), transform.grid.samples};
-}
-
 void copy_into(const wave::Field& from, wave::Field& to) {
     const auto n = static_cast<std::size_t>(from.grid.samples);
     parallel_for(n, [&](std::size_t j, int) {
         std::copy_n(from.re.data() + j * n, n, to.re.data() + j * n);
         std::copy_n(from.im.data() + j * n, n, to.im.data() + j * n);
     });
+    to.box_filtered = from.box_filtered;
 }
 
 }  // namespace
@@ -156,8 +142,9 @@ wave::Psf joint_psf(const Eye& eye, const wave::KernelGrid& grid, const JointPsf
             copy_into(field, work);
             wave::add_defocus(work, dioptres(options, bands[b].wavelength_nm),
                               bands[b].wavelength_nm);
-            wave::transform(work, fft);
-            add_pattern(unfiltered(work), options.aperture.extent_mm, {{{}, {bands[b]}}}, psf);
+            const double energy = wave::transform(work, fft);
+            add_pattern(wave::PatternIntegral::from_transform(work, 1 / energy),
+                        options.aperture.extent_mm, {{{}, {bands[b]}}}, psf);
             advance(static_cast<double>(b + 1) / static_cast<double>(bands.size()));
         }
     }

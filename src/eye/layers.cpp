@@ -77,8 +77,13 @@ std::vector<float> fibre_jitter(const Eye& eye) {
     return jitter;
 }
 
-// How far the upper lid has come down from the open eye, mm.
-double lid_descent_mm(const Eye& eye) { return eye.eyelid * eye.pupil_diameter_mm; }
+// How far the upper lid has come down, and the lower one up, from the open eye, mm.
+double lid_descent_mm(const Eye& eye) {
+    return (1 - eye.anatomy.lower_lid_share) * eye.eyelid * eye.pupil_diameter_mm;
+}
+double lid_rise_mm(const Eye& eye) {
+    return eye.anatomy.lower_lid_share * eye.eyelid * eye.pupil_diameter_mm;
+}
 
 }  // namespace
 
@@ -95,6 +100,8 @@ wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid) {
     wave::draw(pupil, wave::irregular_disc(radius_mm, harmonics));
     if (eye.eyelid > 0) {
         wave::draw(pupil, wave::lid_opening(wave::LidSide::kUpper, radius_mm - lid_descent_mm(eye)),
+                   wave::Blend::kKeep);
+        wave::draw(pupil, wave::lid_opening(wave::LidSide::kLower, lid_rise_mm(eye) - radius_mm),
                    wave::Blend::kKeep);
         if (!(wave::area_mm2(pupil) > 0)) {
             throw InvalidArgument("eyelid", fmt::format("{}", eye.eyelid),

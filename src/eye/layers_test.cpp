@@ -66,14 +66,22 @@ TEST(Eyelid, DescendsFromAboveUntilNothingIsOpen) {
         EXPECT_LT(area, wider) << closure;
         EXPECT_GT(area, 0) << closure;
         wider = area;
-        // y points up: the top is dark, the bottom still open.
-        const int top = kGrid.samples / 2 + static_cast<int>(2.4 / kGrid.spacing_mm());
-        const int bottom = kGrid.samples / 2 - static_cast<int>(2.45 / kGrid.spacing_mm());
-        EXPECT_EQ(pupil.row(top)[kGrid.samples / 2], 0) << closure;
-        EXPECT_EQ(pupil.row(bottom)[kGrid.samples / 2], 1) << closure;
+        // y points up: both lids on the vertical through the centre.
+        const auto open_at = [&](double y_mm) {
+            const int row =
+                kGrid.samples / 2 + static_cast<int>(std::lround(y_mm / kGrid.spacing_mm()));
+            return pupil.row(row)[kGrid.samples / 2];
+        };
+        const double upper_mm = 2.5 - 5 * 0.9 * closure;
+        const double lower_mm = -2.5 + 5 * 0.1 * closure;
+        EXPECT_EQ(open_at(upper_mm + 0.05), 0) << closure;
+        EXPECT_EQ(open_at(lower_mm - 0.05), 0) << closure;
+        EXPECT_EQ(open_at((upper_mm + lower_mm) / 2), 1) << closure;
     }
     eye.eyelid = 0.5;
-    EXPECT_NEAR(wave::area_mm2(draw_pupil(eye, kGrid)) / full, 0.45, 0.05);
+    // The disc below y = .25 mm is .563 of it; the lids' curvature takes .022 of that, the lower
+    // lid .021.
+    EXPECT_NEAR(wave::area_mm2(draw_pupil(eye, kGrid)) / full, 0.520, 0.005);
     eye.eyelid = 1;
     EXPECT_THROW(draw_pupil(eye, kGrid), InvalidArgument);
 }

@@ -127,7 +127,7 @@ Pattern fraunhofer(Field& field, fourier::Fft2d& fft) {
     transform(field, fft);
     const auto n = static_cast<std::size_t>(field.grid.samples);
     const std::size_t half = n / 2;
-    const std::vector<float> gain = box_filter_gain(field.grid.samples);
+    const std::vector<float> gain = box_filter_gain(field);
     Pattern pattern{field.grid, Buffer(field.grid.size())};
     std::vector<double> sums(n);
     parallel_for(n, [&](std::size_t j, int) {
@@ -162,7 +162,9 @@ void add_defocus(Field& field, double defocus_dioptres, double wavelength_nm) {
                               "must be finite");
     }
     // pi D r^2 / lambda with D in 1/m and lengths in mm: D / 1000 per mm.
+    if (defocus_dioptres == 0) return;
     multiply_quadratic_phase(field, defocus_dioptres * 1e-3 / (2 * mm_from_nm(wavelength_nm)));
+    field.box_filtered = false;
 }
 
 double chromatic_defocus_dioptres(double wavelength_nm) {

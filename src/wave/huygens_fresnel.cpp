@@ -59,4 +59,23 @@ std::vector<std::complex<double>> huygens_fresnel(const Field& field, double wav
     return amplitudes;
 }
 
+std::vector<double> huygens_fresnel_per_sr(const Field& field, double wavelength_nm,
+                                           double distance_mm, std::span<const Point> points) {
+    const auto amplitudes = huygens_fresnel(field, wavelength_nm, distance_mm, points);
+    double light_mm2 = 0;
+    for (std::size_t i = 0; i < field.grid.size(); ++i) {
+        light_mm2 += static_cast<double>(field.re[i]) * static_cast<double>(field.re[i]) +
+                     static_cast<double>(field.im[i]) * static_cast<double>(field.im[i]);
+    }
+    light_mm2 *= field.grid.spacing_mm() * field.grid.spacing_mm();
+    std::vector<double> intensities(points.size());
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double r2 = points[p].x_mm * points[p].x_mm + points[p].y_mm * points[p].y_mm +
+                          distance_mm * distance_mm;
+        const double cosine = distance_mm / std::sqrt(r2);
+        intensities[p] = std::norm(amplitudes[p]) * r2 / (cosine * light_mm2);
+    }
+    return intensities;
+}
+
 }  // namespace aureole::wave

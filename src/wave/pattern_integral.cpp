@@ -109,7 +109,7 @@ PatternIntegral PatternIntegral::from_transform(const Field& transform,
     scale.resize(static_cast<std::size_t>(ring_count(samples)), 0.0F);
     offset.resize(scale.size(), 0.0F);
 
-    const std::vector<float> gain = box_filter_gain(samples);
+    const std::vector<float> gain = box_filter_gain(transform);
     PatternIntegral integral(samples);
     integral.integrate([&](std::size_t j, float* row, std::int32_t* ring) {
         const float row_gain = gain[j < half ? half - j : j - half];
@@ -132,7 +132,7 @@ PatternIntegral PatternIntegral::from_transform(const Field& transform, double s
     const int samples = transform.grid.samples;
     const auto n = static_cast<std::size_t>(samples);
     const std::size_t half = n / 2;
-    const std::vector<float> gain = box_filter_gain(samples);
+    const std::vector<float> gain = box_filter_gain(transform);
     std::vector<float> column_gain(n);  // in centred order
     for (std::size_t i = 0; i < n; ++i) column_gain[i] = gain[i < half ? half - i : i - half];
     PatternIntegral integral(samples);

@@ -13,7 +13,7 @@ int ring_count(int samples) { return static_cast<int>(std::lround(samples * std:
 std::vector<double> ring_means(const Field& transform) {
     const int n = transform.grid.samples;
     const int half = n / 2;
-    const std::vector<float> gain = box_filter_gain(n);
+    const std::vector<float> gain = box_filter_gain(transform);
     const auto rings = static_cast<std::size_t>(ring_count(n));
     // Distances |l| from 0 to N/2 in fixed chunks, summed in order: independent of the threads.
     constexpr int kChunks = 32;

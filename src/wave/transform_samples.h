@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "aureole/base/units.h"
+#include "aureole/wave/aperture.h"
 
 namespace aureole::wave {
 
@@ -25,8 +26,11 @@ inline void ring_row(int samples, int l, std::int32_t* ring) {
 // 1 / sinc^2(pi k / N) for k = 0 .. N/2. A sample of a mask is a mean over its square, which
 // multiplies the transform by sinc(pi k / N) sinc(pi l / N): .41 of the intensity is left at
 // the end of either axis. The product of two of these factors restores |F|^2.
-inline std::vector<float> box_filter_gain(int samples) {
+// All 1 for a field whose samples are not means.
+inline std::vector<float> box_filter_gain(const Field& field) {
+    const int samples = field.grid.samples;
     std::vector<float> gain(static_cast<std::size_t>(samples / 2) + 1, 1.0F);
+    if (!field.box_filtered) return gain;
     for (std::size_t k = 1; k < gain.size(); ++k) {
         const double x = kPi * static_cast<double>(k) / samples;
         gain[k] = static_cast<float>(std::pow(x / std::sin(x), 2));

@@ -31,7 +31,9 @@ void parallel_for(std::size_t count, LoopBody body, void* context);
 
 // Calls body(index, worker) for every index in [0, count), in any order, on several threads.
 // `worker` is in [0, max_workers()) and no two concurrent calls share it: use it to pick scratch
-// memory that was allocated before. If a body throws, one of the exceptions is rethrown.
+// memory that was allocated before. Bodies must not start loops of their own: a thread that waits
+// inside one could pick up another item, with the same worker index. If a body throws, one of the
+// exceptions is rethrown.
 template <class Body>
 void parallel_for(std::size_t count, Body&& body) {
     using Fn = std::remove_reference_t<Body>;

@@ -47,6 +47,8 @@ struct Anatomy {
     double particle_disc_radius_mm = 4;  // where particles are found; 0.5 to 5
     Gratings gratings;
     Lashes lashes;
+    double lower_lid_share = 0.1;  // of a closing, done by the lower lid; the upper one does the
+                                   // rest. 0 to 0.5
     double pupil_irregularity = 0.004;  // rms scale of the harmonics of the pupil's edge, 0 to 0.1
 };
 

@@ -48,6 +48,10 @@ struct Field {
     ApertureGrid grid;
     Buffer re;
     Buffer im;
+    // Whether a sample is the mean of the light over its square, as masks are drawn: the transform
+    // is then dimmed towards the ends of its band by a known factor, which its readers divide out.
+    // A strong quadratic phase is multiplied in sample by sample and has no such factor.
+    bool box_filtered = true;
 };
 
 // Light of amplitude `mask` and phase 0.

@@ -36,13 +36,12 @@ double transform(Field& field, fourier::Fft2d& fft);
 // |F{field}|^2 in angles (Goodman, "Introduction to Fourier Optics", eq. 4-25), scaled to a sum
 // of 1. A sample of a field is the mean of the light over its square (that is how masks are
 // drawn), which dims the ends of the band; the known factors sinc^2(pi k / N) sinc^2(pi l / N) are
-// divided out. A quadratic phase is multiplied in sample by sample and has no such filter: where it
-// nears half a turn per sample, the rim of the pattern comes out too bright, by up to 2.5 per axis.
-// The field is consumed: it holds the transform afterwards. Throws as transform()
-// does.
+// divided out, unless Field::box_filtered says otherwise. The field is consumed: it holds the
+// transform afterwards. Throws as transform() does.
 Pattern fraunhofer(Field& field, fourier::Fft2d& fft);
 
 // Multiplies the field by exp(i pi D r^2 / lambda): residual defocus of D dioptres (1/m).
+// Unless D is 0 the samples are no means any more: clears Field::box_filtered.
 void add_defocus(Field& field, double defocus_dioptres, double wavelength_nm);
 
 // Longitudinal chromatic aberration of the eye relative to 580 nm, in dioptres: Thibos et al.

@@ -21,4 +21,11 @@ std::vector<std::complex<double>> huygens_fresnel(const Field& field, double wav
                                                   double distance_mm,
                                                   std::span<const Point> points);
 
+// The same as intensity in the direction of each point seen from the aperture's centre, in sr^-1
+// of unit energy like the other propagations: |E|^2 R^2 / (cos(theta) A), R the distance from the
+// centre, theta the angle from the axis, A = sum |field|^2 dx^2 the light that passes. (Energy per
+// area of the plane is |E|^2 / A, and an area dS is seen under dS cos(theta) / R^2.)
+std::vector<double> huygens_fresnel_per_sr(const Field& field, double wavelength_nm,
+                                           double distance_mm, std::span<const Point> points);
+
 }  // namespace aureole::wave
