@@ -1,6 +1,5 @@
 #include "aureole/color/tone_curve.h"
 
-#include <cassert>
 #include <string>
 
 #include "aureole/base/error.h"
@@ -84,8 +83,15 @@ Rgbf hue_preserving(const Rgbf& rgb) { return tone_map(ToneCurve::kXyz, rgb); }
 
 void tone_map_to_srgb(ToneCurve curve, float exposure_scale, const ConstImageView& rgb,
                       const ImageView& out) {
-    assert(rgb.channels == 3 && out.channels == 3);
-    assert(rgb.width == out.width && rgb.height == out.height);
+    if (rgb.channels != 3 || out.channels != 3 || rgb.width != out.width ||
+        rgb.height != out.height) {
+        throw InvalidArgument("pictures to tone-map",
+                              std::to_string(rgb.width) + "x" + std::to_string(rgb.height) + "x" +
+                                  std::to_string(rgb.channels) + " and " +
+                                  std::to_string(out.width) + "x" + std::to_string(out.height) +
+                                  "x" + std::to_string(out.channels),
+                              "must have equal size and 3 channels");
+    }
     parallel_for(static_cast<std::size_t>(rgb.height), [&](std::size_t row, int) {
         const int y = static_cast<int>(row);
         Block block;

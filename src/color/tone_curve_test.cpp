@@ -201,5 +201,13 @@ TEST(ToneMapToSrgb, NotANumberIsBlack) {
     }
 }
 
+TEST(ToneMapToSrgb, RefusesOtherShapes) {
+    const Image rgb(4, 3, 3);
+    Image narrow(3, 3, 3);
+    Image grey(4, 3, 1);
+    EXPECT_THROW(tone_map_to_srgb(ToneCurve::kHill, 1, rgb, narrow), InvalidArgument);
+    EXPECT_THROW(tone_map_to_srgb(ToneCurve::kHill, 1, rgb, grey), InvalidArgument);
+}
+
 }  // namespace
 }  // namespace aureole::color

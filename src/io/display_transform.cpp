@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdlib>
 #include <filesystem>
 #include <utility>
@@ -138,6 +139,8 @@ DisplayTransform DisplayTransform::ocio(const OcioSettings& settings) {
 
 void DisplayTransform::apply(const ConstImageView& rgb, const ImageView& out,
                              float exposure_scale) const noexcept {
+    assert(rgb.channels == 3 && out.channels == 3);
+    assert(rgb.width == out.width && rgb.height == out.height);
     parallel_for(static_cast<std::size_t>(rgb.height), [&](std::size_t row, int) {
         const int y = static_cast<int>(row);
         std::array<float, 4 * kChunk> pixels;

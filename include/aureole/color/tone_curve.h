@@ -39,6 +39,7 @@ Rgbf hue_preserving(const Rgbf& rgb);
 
 // Tone-maps three channels and encodes them as sRGB. `rgb` and `out` have 3 channels and equal
 // size, and may be the same memory. `exposure_scale` multiplies the input first (2^EV).
+// Throws InvalidArgument for other shapes.
 void tone_map_to_srgb(ToneCurve curve, float exposure_scale, const ConstImageView& rgb,
                       const ImageView& out);
 
