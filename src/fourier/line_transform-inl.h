@@ -210,32 +210,17 @@ HWY_INLINE void butterfly(Complex (&x)[8]) {
     x[7] = sub(even[3], turn3);
 }
 
-// One forward pass: `valid` elements of `source`, zeros after them, to `x`. source == x is fine.
-template <int R>
+// One forward pass from `source` to `x` (may be equal). Pruned: only `valid` elements of the source
+// exist, zeros follow.
+template <int R, bool kPruned>
 void forward_pass(const float* source, int valid, float* x, int stride, const float* twiddles) {
-    for (int j = 0; j < stride; ++j, twiddles += 2 * (R - 1)) {
-        Complex t[R];
-        for (int i = 0; i < R; ++i) {
-            const int at = j + i * stride;
-            t[i] = at < valid ? load(source + static_cast<std::size_t>(at) * kElement) : zero();
-        }
-        butterfly<false>(t);
-        float* out = x + static_cast<std::size_t>(j) * kElement;
-        const std::size_t step = static_cast<std::size_t>(stride) * kElement;
-        store(t[0], out);
-        for (int i = 1; i < R; ++i) {
-            store(twiddle<false>(t[i], twiddles + 2 * (i - 1)),
-                  out + static_cast<unsigned>(i) * step);
-        }
-    }
-}
-
-template <int R>
-void forward_pass_in_place(float* x, int stride, const float* twiddles) {
     const std::size_t step = static_cast<std::size_t>(stride) * kElement;
-    for (int j = 0; j < stride; ++j, twiddles += 2 * (R - 1), x += kElement) {
+    for (int j = 0; j < stride; ++j, twiddles += 2 * (R - 1), source += kElement, x += kElement) {
         Complex t[R];
-        for (unsigned i = 0; i < R; ++i) t[i] = load(x + i * step);
+        for (unsigned i = 0; i < R; ++i) {
+            const bool exists = !kPruned || j + static_cast<int>(i) * stride < valid;
+            t[i] = exists ? load(source + i * step) : zero();
+        }
         butterfly<false>(t);
         store(t[0], x);
         for (unsigned i = 1; i < R; ++i) {
@@ -244,35 +229,24 @@ void forward_pass_in_place(float* x, int stride, const float* twiddles) {
     }
 }
 
-template <int R>
-void inverse_pass_in_place(float* x, int stride, const float* twiddles) {
-    const std::size_t step = static_cast<std::size_t>(stride) * kElement;
-    for (int j = 0; j < stride; ++j, twiddles += 2 * (R - 1), x += kElement) {
-        Complex t[R];
-        t[0] = load(x);
-        for (unsigned i = 1; i < R; ++i) {
-            t[i] = twiddle<true>(load(x + i * step), twiddles + 2 * (i - 1));
-        }
-        butterfly<true>(t);
-        for (unsigned i = 0; i < R; ++i) store(t[i], x + i * step);
-    }
-}
-
-// The last inverse pass: only the first `valid` elements are stored.
-template <int R>
+// One inverse pass from `x` to `destination` (may be equal). Pruned: only the first `valid`
+// elements are stored.
+template <int R, bool kPruned>
 void inverse_pass(const float* x, float* destination, int valid, int stride,
                   const float* twiddles) {
     const std::size_t step = static_cast<std::size_t>(stride) * kElement;
-    for (int j = 0; j < stride; ++j, twiddles += 2 * (R - 1), x += kElement) {
+    for (int j = 0; j < stride;
+         ++j, twiddles += 2 * (R - 1), x += kElement, destination += kElement) {
         Complex t[R];
         t[0] = load(x);
         for (unsigned i = 1; i < R; ++i) {
             t[i] = twiddle<true>(load(x + i * step), twiddles + 2 * (i - 1));
         }
         butterfly<true>(t);
-        for (int i = 0; i < R; ++i) {
-            const int at = j + i * stride;
-            if (at < valid) store(t[i], destination + static_cast<std::size_t>(at) * kElement);
+        for (unsigned i = 0; i < R; ++i) {
+            if (!kPruned || j + static_cast<int>(i) * stride < valid) {
+                store(t[i], destination + i * step);
+            }
         }
     }
 }
@@ -335,7 +309,7 @@ inline void forward_rest(const LinePlan& plan, std::size_t level, float* x, int 
     }
     for (int block = 0; block < count; ++block) {
         with_radix(pass.radix, [&]<int R>() HWY_ATTR {
-            forward_pass_in_place<R>(x, pass.stride, pass.twiddles.data());
+            forward_pass<R, false>(x, pass.length, x, pass.stride, pass.twiddles.data());
         });
         forward_rest(plan, level + 1, x, pass.radix);
         x += static_cast<std::size_t>(pass.length) * kElement;
@@ -352,7 +326,7 @@ inline void inverse_rest(const LinePlan& plan, std::size_t level, float* x, int 
     for (int block = 0; block < count; ++block) {
         inverse_rest(plan, level + 1, x, pass.radix);
         with_radix(pass.radix, [&]<int R>() HWY_ATTR {
-            inverse_pass_in_place<R>(x, pass.stride, pass.twiddles.data());
+            inverse_pass<R, false>(x, x, pass.length, pass.stride, pass.twiddles.data());
         });
         x += static_cast<std::size_t>(pass.length) * kElement;
     }
@@ -367,11 +341,11 @@ inline void product_rest(const LinePlan& plan, std::size_t level, float* x, cons
     }
     for (int block = 0; block < count; ++block) {
         with_radix(pass.radix, [&]<int R>() HWY_ATTR {
-            forward_pass_in_place<R>(x, pass.stride, pass.twiddles.data());
+            forward_pass<R, false>(x, pass.length, x, pass.stride, pass.twiddles.data());
         });
         product_rest(plan, level + 1, x, kernel, pass.radix);
         with_radix(pass.radix, [&]<int R>() HWY_ATTR {
-            inverse_pass_in_place<R>(x, pass.stride, pass.twiddles.data());
+            inverse_pass<R, false>(x, x, pass.length, pass.stride, pass.twiddles.data());
         });
         x += static_cast<std::size_t>(pass.length) * kElement;
         kernel += static_cast<std::size_t>(pass.length) * kElement;
@@ -387,7 +361,7 @@ inline void forward_line(const LinePlan& plan, const float* source, int valid, f
     }
     const LinePass& first = plan.passes.front();
     with_radix(first.radix, [&]<int R>() HWY_ATTR {
-        forward_pass<R>(source, valid, x, first.stride, first.twiddles.data());
+        forward_pass<R, true>(source, valid, x, first.stride, first.twiddles.data());
     });
     forward_rest(plan, 0, x, first.radix);
 }
@@ -402,7 +376,7 @@ inline void inverse_line(const LinePlan& plan, float* x, float* destination, int
     const LinePass& first = plan.passes.front();
     inverse_rest(plan, 0, x, first.radix);
     with_radix(first.radix, [&]<int R>() HWY_ATTR {
-        inverse_pass<R>(x, destination, valid, first.stride, first.twiddles.data());
+        inverse_pass<R, true>(x, destination, valid, first.stride, first.twiddles.data());
     });
 }
 
@@ -412,11 +386,11 @@ inline void convolve_line(const LinePlan& plan, const float* source, float* dest
                           const float* kernel, float* x) {
     const LinePass& first = plan.passes.front();
     with_radix(first.radix, [&]<int R>() HWY_ATTR {
-        forward_pass<R>(source, valid, x, first.stride, first.twiddles.data());
+        forward_pass<R, true>(source, valid, x, first.stride, first.twiddles.data());
     });
     product_rest(plan, 0, x, kernel, first.radix);
     with_radix(first.radix, [&]<int R>() HWY_ATTR {
-        inverse_pass<R>(x, destination, valid, first.stride, first.twiddles.data());
+        inverse_pass<R, true>(x, destination, valid, first.stride, first.twiddles.data());
     });
 }
 
