@@ -98,6 +98,11 @@ void GlareSettings::add_options(CLI::App& command) {
            1e6)
         ->type_name("G")
         ->capture_default_str();
+    one_of(group.add_option("--surround", surround,
+                            "What lies beyond the border. dark: nothing, borders lose light; same: "
+                            "for each pixel surroundings as bright as itself"),
+           {"dark", "same"})
+        ->capture_default_str();
     group
         .add_option("--side-by-side", side_by_side_file,
                     "Also write a PNG or JPEG: the picture without glare, and with it; a numbered "
@@ -157,6 +162,7 @@ void GlareJob::prepare(const io::Picture& picture) {
     options.threshold = settings_.threshold;
     options.gain = settings_.gain;
     options.matte = !settings_.matte_file.empty();
+    options.surround = glare::surround_from_name(settings_.surround);
     session_.timed("plan", [&] {
         prepared_.emplace(Prepared{display, view, channels, metered, eye,
                                    glare::Glare(view, channels, psf, options)});
@@ -235,6 +241,7 @@ std::string GlareJob::report() {
     json["outputs"] = written_;
     json["energy"] = {
         {"in", energy_.in}, {"out", energy_.out}, {"off_picture", energy_.off_picture}};
+    if (energy_.from_surround != 0) json["energy"]["from_surround"] = energy_.from_surround;
     json["method"] = settings_.method == "direct" ? "direct" : "fft";
     json["nonfinite_pixels"] = nonfinite_pixels_;
     auto& parameters = json["parameters"];
@@ -248,6 +255,7 @@ std::string GlareJob::report() {
                   {"padded_height", last.glare.padded_height()},
                   {"threshold", settings_.threshold},
                   {"gain", settings_.gain},
+                  {"surround", settings_.surround},
                   {"output_layers", settings_.layers},
                   {"depth", settings_.output.depth()},
                   {"tone_map", settings_.display.tone_map()},

@@ -34,6 +34,7 @@ struct GlareSettings {
     std::string matte_file;
     float threshold = 0;
     float gain = 1;
+    std::string surround = "dark";
     std::string side_by_side_file;
 };
 

@@ -85,10 +85,9 @@ struct Convolver::Impl {
           down(padded(h + reach_y.radius())),
           kernel_channels(kernel.channels),
           slabs_per_channel(static_cast<int>(batches(down.length / 2 + 1, simd.lanes))),
-          scratch(element() *
-                  (static_cast<std::size_t>(across.length) +
-                   static_cast<std::size_t>(down.length + 1) *
-                       (static_cast<std::size_t>(channels) + 1))),
+          scratch(element() * (static_cast<std::size_t>(across.length) +
+                               static_cast<std::size_t>(down.length + 1) *
+                                   (static_cast<std::size_t>(channels) + 1))),
           spectrum(element() * static_cast<std::size_t>(across.length) * slabs(kernel_channels)) {
         for (int k = 0; k < channels; ++k) peaks.push_back(peak(kernel, kernel_channel(k)));
         prepare(cut(kernel, reach_x, reach_y));
@@ -222,9 +221,8 @@ void convolve_directly(const ConstImageView& in, const ConstImageView& kernel, c
     const Reach reach_x(kernel.width, in.width);
     const Reach reach_y(kernel.height, in.height);
     const auto weight = [&](int x, int y) {
-        return weights == nullptr
-                   ? 1.0
-                   : static_cast<double>(weights[std::ptrdiff_t{y} * in.width + x]);
+        return weights == nullptr ? 1.0
+                                  : static_cast<double>(weights[std::ptrdiff_t{y} * in.width + x]);
     };
     parallel_for(static_cast<std::size_t>(in.height), [&](std::size_t row, int) {
         const int y = static_cast<int>(row);

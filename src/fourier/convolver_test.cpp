@@ -75,8 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, ConvolverCase,
                                          Case{64, 48, 1, 7, 5, 1}, Case{33, 40, 3, 101, 99, 3},
                                          Case{127, 1, 3, 4, 6, 3}, Case{1, 127, 2, 3, 255, 2},
                                          Case{65, 67, 5, 129, 3, 1}, Case{130, 50, 3, 2, 2, 3},
-                                         Case{97, 89, 3, 193, 177, 3},
-                                         Case{1, 12, 20, 1, 1, 1}),
+                                         Case{97, 89, 3, 193, 177, 3}, Case{1, 12, 20, 1, 1, 1}),
                          [](const auto& instance) {
                              const Case& p = instance.param;
                              return std::to_string(p.width) + "x" + std::to_string(p.height) + "x" +

@@ -59,6 +59,12 @@ Method method_from_name(std::string_view name) {
     throw InvalidArgument("method", std::string(name), "must be fft or direct");
 }
 
+Surround surround_from_name(std::string_view name) {
+    if (name == "dark") return Surround::kDark;
+    if (name == "same") return Surround::kSame;
+    throw InvalidArgument("surround", std::string(name), "must be dark or same");
+}
+
 struct Glare::Impl {
     Impl(const View& v, int c, const wave::Psf& psf, const GlareOptions& o)
         : view(v), channels(c), options(o) {
@@ -76,10 +82,29 @@ struct Glare::Impl {
         if (selective() || options.method == Method::kDirect) {
             spread = Image(view.width, view.height, channels);
         }
+        if (options.surround == Surround::kSame) measure_surround();
     }
 
-    // Only part of the light makes glare, or its glare is scaled.
-    bool selective() const { return options.threshold > 0 || options.gain != 1 || options.matte; }
+    // The result is something else than in * PSF.
+    bool selective() const {
+        return options.threshold > 0 || options.gain != 1 || options.matte ||
+               options.surround != Surround::kDark;
+    }
+
+    // What a flat field lacks after glare is what its surroundings would have sent.
+    void measure_surround() {
+        for_each_row([&](int y, int c) { std::fill_n(light.row(y, c), view.width, 1.0F); });
+        surround = Image(view.width, view.height, channels);
+        convolve(light, surround);
+        for_each_row([&](int y, int c) {
+            float* row = surround.row(y, c);
+            for (int x = 0; x < view.width; ++x) row[x] = 1.0F - row[x];
+        });
+    }
+
+    float from_surround(int x, int y, int c) const {
+        return surround.empty() ? 0.0F : surround.at(x, y, c);
+    }
 
     float light_of(float value, const float* matte, std::size_t pixel) const {
         const float above = sources::ramp(value, options.threshold);
@@ -121,7 +146,8 @@ struct Glare::Impl {
         convolve(light, spread);
         for_each_row([&](int y, int c) {
             for (int x = 0; x < view.width; ++x) {
-                const float change = spread.at(x, y, c) - light.at(x, y, c);
+                const float change =
+                    spread.at(x, y, c) + (from_surround(x, y, c) - 1.0F) * light.at(x, y, c);
                 out.at(x, y, c) = in.at(x, y, c) + options.gain * change;
             }
         });
@@ -145,8 +171,9 @@ struct Glare::Impl {
                     const float value = in.at(x, y, c);
                     sum.in += weight * value;
                     sum.out += weight * out.at(x, y, c);
-                    sum.off_picture += weight * options.gain * light_of(value, matte, pixel) *
-                                       (1.0 - share.at(x, y, c));
+                    const double spreading = weight * options.gain * light_of(value, matte, pixel);
+                    sum.off_picture += spreading * (1.0 - share.at(x, y, c));
+                    sum.from_surround += spreading * from_surround(x, y, c);
                 }
             }
         });
@@ -155,6 +182,7 @@ struct Glare::Impl {
             total.in += row.in;
             total.out += row.out;
             total.off_picture += row.off_picture;
+            total.from_surround += row.from_surround;
         }
         return total;
     }
@@ -164,10 +192,11 @@ struct Glare::Impl {
     GlareOptions options;
     std::optional<fourier::Convolver> convolver;
     Image direct_kernel;
-    Image share;    // inside the picture, per source pixel and kernel channel
-    Image weights;  // relative solid angles, perspective only
-    Image light;    // what makes glare, if not everything does
-    Image spread;   // and what becomes of it
+    Image share;     // inside the picture, per source pixel and kernel channel
+    Image weights;   // relative solid angles, perspective only
+    Image light;     // what makes glare, if not everything does
+    Image spread;    // and what becomes of it
+    Image surround;  // what a flat field receives from beyond the border; empty for kDark
 };
 
 Glare::Glare(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options) {

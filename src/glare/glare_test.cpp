@@ -174,6 +174,39 @@ TEST(Glare, OfAMatteIsThatOfThePixelsItSelects) {
     expect_near(out, expected, 1e-3);
 }
 
+TEST(Glare, OfAFlatFieldInSurroundingsOfItsOwnIsFlat) {
+    for (const Projection projection : {Projection::kPerspective, Projection::kConstantPitch}) {
+        const View view = small_view(projection);
+        Image in(view.width, view.height, 3);
+        for (int c = 0; c < 3; ++c) std::fill_n(in.plane(c), in.pixels(), 8.0F);
+        Image out(view.width, view.height, 3);
+        GlareOptions options;
+        options.surround = Surround::kSame;
+        Glare glare(view, 3, uneven_psf(view, 31), options);
+        glare.apply(in, out);
+        expect_near(out, in, 1e-5);
+        const Energy energy = glare.energy(in, out);
+        EXPECT_NEAR((energy.out + energy.off_picture) / (energy.in + energy.from_surround), 1,
+                    1e-5);
+        EXPECT_GT(energy.from_surround, 0.05 * energy.in);
+    }
+}
+
+// Surroundings add nothing where the border is out of the kernel's reach.
+TEST(Glare, OfSurroundingsEndsAtTheKernelsReach) {
+    const View view = small_view();
+    const wave::Psf psf = uneven_psf(view, 9, 1.0);
+    const Image in = noise(view);
+    Image dark(view.width, view.height, 3);
+    Image same(view.width, view.height, 3);
+    GlareOptions options;
+    Glare(view, 3, psf, options).apply(in, dark);
+    options.surround = Surround::kSame;
+    Glare(view, 3, psf, options).apply(in, same);
+    EXPECT_NEAR(same.at(20, 15, 1) / dark.at(20, 15, 1), 1, 0.02);  // solid angles vary by that
+    EXPECT_GT(same.at(0, 0, 1), 1.1F * dark.at(0, 0, 1));
+}
+
 TEST(Glare, WorksInPlace) {
     const View view = small_view();
     for (const float threshold : {0.0F, 20.0F}) {
@@ -202,6 +235,7 @@ TEST(Glare, RefusesWhatDoesNotFit) {
     options.gain = std::nanf("");
     EXPECT_THROW(Glare(view, 3, psf, options), InvalidArgument);
     EXPECT_THROW(method_from_name("sprite"), InvalidArgument);
+    EXPECT_THROW(surround_from_name("mirror"), InvalidArgument);
 }
 
 }  // namespace

@@ -64,6 +64,13 @@ TEST_F(Applying, BothLayersAreThoseOfTheTwo) {
     }
 }
 
+TEST_F(Applying, SurroundingsKeepAFlatFieldFlat) {
+    const Image flat = constant(kWidth, kHeight, 3, 5);
+    write("flat.exr", flat);
+    EXPECT_GT(largest_difference(glare("--fov 70", "flat.exr"), flat), 0.5);
+    EXPECT_LT(largest_difference(glare("--fov 70 --surround same", "flat.exr"), flat), 1e-5);
+}
+
 TEST_F(Applying, BlackMatteChangesNothing) {
     write("matte.exr", constant(kWidth, kHeight, 1, 0), {"Y"});
     EXPECT_TRUE(identical(glare("--matte matte.exr"), in));

@@ -37,10 +37,11 @@ TEST_F(Help, OfEveryCommandNamesItsOptions) {
     }
     EXPECT_TRUE(names_all(glare.out, kEye));
     EXPECT_TRUE(names_all(psf.out, kEye));
-    EXPECT_TRUE(names_all(glare.out, {"INPUT", "--output", "--frames", "--white-luminance",
-                                      "--method", "--output-layers", "--matte", "--threshold",
-                                      "--gain", "--psf", "--side-by-side", "--tone-map",
-                                      "--exposure", "--ocio-config", "none|narkowicz|hill|aces"}));
+    EXPECT_TRUE(names_all(
+        glare.out,
+        {"INPUT", "--output", "--frames", "--white-luminance", "--method", "--output-layers",
+         "--matte", "--threshold", "--gain", "--psf", "--surround", "--side-by-side", "--tone-map",
+         "--exposure", "--ocio-config", "none|narkowicz|hill|aces"}));
     EXPECT_TRUE(names_all(psf.out, {"--output", "--width", "--height", "--size", "--component",
                                     "bloom", "corona", "halo", "streaks"}));
     EXPECT_TRUE(
@@ -131,6 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {"--white-luminance", "0", "above 0"}},
         WrongUsage{"glare in.exr -o out.exr --threshold -1", {"--threshold", "-1", "from 0"}},
         WrongUsage{"glare in.exr -o out.exr --gain -0.5", {"--gain", "-0.5", "from 0"}},
+        WrongUsage{"glare in.exr -o out.exr --surround mirror", {"--surround", "mirror", "same"}},
         WrongUsage{"glare in.exr -o out.exr --gain inf", {"--gain", "inf", "number"}},
         WrongUsage{"glare in.exr -o out.exr --method magic", {"--method", "magic", "direct"}},
         WrongUsage{"glare in.exr -o out.exr --depth quarter", {"--depth", "quarter", "half"}},

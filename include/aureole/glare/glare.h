@@ -3,7 +3,8 @@
 // The result is linear and unclipped, and adds nothing to the energy:
 //     out = in * PSF,
 // and with a threshold, a matte or a gain g, for the light that makes glare,
-//     light = matte * max(0, in - threshold),   out = in + g (light * PSF - light).
+//     light = matte * max(0, in - threshold),   out = in + g (light * PSF - light + b light),
+// b the share that a flat field receives from beyond the border if there is light (Surround).
 //
 // Perspective: what is conserved is energy, radiance times the true solid angle W of a pixel, so
 //     W(x) out(x) = sum over s of W(s) in(s) k(x - s),
@@ -29,6 +30,18 @@ enum class Method {
 // The names used on the command line: fft, direct. Throws InvalidArgument for any other.
 Method method_from_name(std::string_view name);
 
+// What lies beyond the picture's border.
+enum class Surround {
+    kDark,  // nothing: the physics of a picture that is all there is. Pixels at the border lose
+            // light and receive none
+    kSame,  // for each pixel, surroundings as bright as itself: what a flat field would receive
+            // from beyond the border, (1 - flat * PSF) light, is added. Borders do not darken, and
+            // lights are not repeated
+};
+
+// The names used on the command line: dark, same. Throws InvalidArgument for any other.
+Surround surround_from_name(std::string_view name);
+
 struct GlareOptions {
     Method method = Method::kFft;
     // Pixel values up to here make no glare, per channel and continuously (in the picture's
@@ -38,6 +51,7 @@ struct GlareOptions {
     float gain = 1;
     // Whether apply() will be given a matte.
     bool matte = false;
+    Surround surround = Surround::kDark;
 };
 
 // Configured once per picture size, view and PSF; then applied as often as needed.
