@@ -9,19 +9,23 @@
 
 namespace aureole {
 
-Buffer::Buffer(std::size_t count) : count_(count) {
+void* detail::allocate_aligned(std::size_t bytes) {
     constexpr std::size_t kHugePage = std::size_t{1} << 21U;
-    const std::size_t bytes = count * sizeof(float);
     const std::size_t alignment = bytes >= kHugePage ? kHugePage : 64;
-    const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-    void* data = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
-    if (data == nullptr) throw std::bad_alloc();
+    void* data = nullptr;
+    if (posix_memalign(&data, alignment, bytes == 0 ? alignment : bytes) != 0) {
+        throw std::bad_alloc();
+    }
 #if defined(__linux__)
-    if (bytes >= kHugePage) madvise(data, rounded, MADV_HUGEPAGE);  // a hint: failure is harmless
+    // A hint: failure is harmless. The rest beyond whole huge pages takes small ones.
+    if (bytes >= kHugePage) madvise(data, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
 #endif
-    data_.reset(static_cast<float*>(data));
+    return data;
 }
 
-void Buffer::Free::operator()(float* data) const noexcept { std::free(data); }
+void detail::free_aligned(void* data) noexcept { std::free(data); }
+
+Buffer::Buffer(std::size_t count)
+    : data_(static_cast<float*>(detail::allocate_aligned(count * sizeof(float)))), count_(count) {}
 
 }  // namespace aureole

@@ -36,6 +36,17 @@ void scatter_row(const ImageView& out, int x0, int y, int channel, const float* 
     for (int l = 0; l < count; ++l) to[l * out.pixel_stride] = from[l];
 }
 
+// The weights of 2 V pixels from (x0, y) on; 1 beyond the picture.
+Complex load_weights(const ConstImageView& image, const float* weights, int x0, int y) {
+    const D d;
+    const float* w = weights + static_cast<std::ptrdiff_t>(y) * image.width + x0;
+    const int count = columns_at(image, x0);
+    if (count == 2 * kLanes) return {hn::LoadU(d, w), hn::LoadU(d, w + kLanes)};
+    HWY_ALIGN float padded[2 * kLanes];
+    for (int l = 0; l < 2 * kLanes; ++l) padded[l] = l < count ? w[l] : 1.0F;
+    return load(padded);
+}
+
 // Row y of all channels, 2 V columns: the first V become the real parts, the next V the imaginary
 // parts of element `row` of each channel's line batch.
 void load_row(const ConstImageView& in, const float* weights, int x0, int y, int row,
@@ -68,21 +79,11 @@ void load_row(const ConstImageView& in, const float* weights, int x0, int y, int
         lines -= channel_floats * static_cast<std::size_t>(in.channels);
     }
     if (weights == nullptr) return;
-    const float* w = weights + static_cast<std::ptrdiff_t>(y) * in.width + x0;
-    const int count = columns_at(in, x0);
+    const Complex w = load_weights(in, weights, x0, y);
     for (int c = 0; c < in.channels; ++c) {
         float* to = element(lines, row) + channel_floats * static_cast<std::size_t>(c);
-        for (int l = 0; l < count; ++l) to[l] *= w[l];
-    }
-}
-
-void divide_row(const ImageView& out, const float* weights, int x0, int y,
-                std::size_t channel_floats, float* lines) {
-    const float* w = weights + static_cast<std::ptrdiff_t>(y) * out.width + x0;
-    const int count = columns_at(out, x0);
-    for (int c = 0; c < out.channels; ++c) {
-        float* to = element(lines, y) + channel_floats * static_cast<std::size_t>(c);
-        for (int l = 0; l < count; ++l) to[l] /= w[l];
+        const Complex value = load(to);
+        store({hn::Mul(value.re, w.re), hn::Mul(value.im, w.im)}, to);
     }
 }
 
@@ -223,12 +224,19 @@ void columns_out(const ColumnPass& pass, const ConstImageView& in, const float* 
     }
     float* input = lines + channel_floats * static_cast<std::size_t>(out.channels);
     for (int y = 0; y < out.height; ++y) {
-        if (pass.weights != nullptr) divide_row(out, pass.weights, x0, y, channel_floats, lines);
         load_row(in, nullptr, x0, y, 0, kElement, input);
+        Complex inverse = {hn::Set(D(), 1.0F), hn::Set(D(), 1.0F)};
+        if (pass.weights != nullptr) {
+            const Complex w = load_weights(in, pass.weights, x0, y);
+            inverse = {hn::Div(inverse.re, w.re), hn::Div(inverse.im, w.im)};
+        }
         for (int c = 0; c < out.channels; ++c) {
             const auto channel = static_cast<std::size_t>(c);
             float* line = element(lines, y) + channel * channel_floats;
-            store(add_scaled(load(line), load(input + channel * kElement), peaks[c]), line);
+            const Complex spread = load(line);
+            store(add_scaled({hn::Mul(spread.re, inverse.re), hn::Mul(spread.im, inverse.im)},
+                             load(input + channel * kElement), peaks[c]),
+                  line);
         }
         store_row(out, x0, y, channel_floats, lines);
     }

@@ -7,6 +7,26 @@
 
 namespace aureole {
 
+namespace detail {
+// Throws std::bad_alloc.
+void* allocate_aligned(std::size_t bytes);
+void free_aligned(void* data) noexcept;
+}  // namespace detail
+
+// The same memory for standard containers.
+template <class T>
+struct AlignedAllocator {
+    using value_type = T;
+    AlignedAllocator() = default;
+    template <class U>
+    AlignedAllocator(const AlignedAllocator<U>&) {}  // NOLINT(google-explicit-constructor)
+    T* allocate(std::size_t count) {
+        return static_cast<T*>(detail::allocate_aligned(count * sizeof(T)));
+    }
+    void deallocate(T* data, std::size_t) noexcept { detail::free_aligned(data); }
+    bool operator==(const AlignedAllocator&) const = default;
+};
+
 class Buffer {
   public:
     Buffer() = default;
@@ -21,7 +41,7 @@ class Buffer {
 
   private:
     struct Free {
-        void operator()(float* data) const noexcept;
+        void operator()(float* data) const noexcept { detail::free_aligned(data); }
     };
     std::unique_ptr<float[], Free> data_;
     std::size_t count_ = 0;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "aureole/base/buffer.h"
+
 namespace aureole {
 
 // A read-only picture in anyone's memory. Sample (x, y, c) is
@@ -99,7 +101,7 @@ class Image {
     int width_ = 0;
     int height_ = 0;
     int channels_ = 0;
-    std::vector<float> data_;
+    std::vector<float, AlignedAllocator<float>> data_;
 };
 
 // A planar copy of any view.
