@@ -116,11 +116,11 @@ TEST(Scenes, LookTheSameAtEverySize) {
         double sum = 0;
         for (int by = 0; by < 135 / kBlock; ++by) {
             for (int bx = 0; bx < 240 / kBlock; ++bx) {
-                const auto mean = [&](const Image& rgb, int size) {
+                const auto mean = [&, most = limit](const Image& rgb, int size) {
                     double total = 0;
                     for (int y = by * size; y < (by + 1) * size; ++y) {
                         for (int x = bx * size; x < (bx + 1) * size; ++x) {
-                            total += std::min(luminance_at(rgb, x, y), limit);
+                            total += std::min(luminance_at(rgb, x, y), most);
                         }
                     }
                     return total / (size * size);
