@@ -39,6 +39,7 @@ struct Pixels {
 void textbook(benchmark::State& state, int kernel_width, int kernel_height) {
     TextbookConvolver convolver(kWidth, kHeight, noise(kernel_width, kernel_height, 1));
     Pixels pixels;
+    convolver.run(pixels.in.data(), pixels.out.data());  // memory is there from the second frame on
     for (auto _ : state) convolver.run(pixels.in.data(), pixels.out.data());
 }
 
@@ -49,6 +50,7 @@ void aureole(benchmark::State& state, int kernel_width, int kernel_height, int k
     const ConstImageView in =
         interleaved_view(const_cast<const float*>(pixels.in.data()), kWidth, kHeight, 3);
     const ImageView out = interleaved_view(pixels.out.data(), kWidth, kHeight, 3);
+    convolver.run(in, out);
     for (auto _ : state) convolver.run(in, out);
 }
 
@@ -64,6 +66,7 @@ void default_glare(benchmark::State& state) {
     }
     const Image in = noise(kWidth, kHeight, 3);
     Image out(kWidth, kHeight, 3);
+    glare->apply(in, out);
     for (auto _ : state) glare->apply(in, out);
 }
 

@@ -32,7 +32,7 @@ def medians(program, simd, rounds, only="."):
     run = subprocess.run(command, check=True, capture_output=True, text=True)
     result = {}
     for case in json.loads(run.stdout)["benchmarks"]:
-        if case.get("aggregate_name") == "median" or rounds == 1:
+        if case.get("aggregate_name") == "median":
             name = case["run_name"].replace("/real_time", "").split("/min_time")[0]
             result[name] = case["real_time"]
     return result
@@ -44,7 +44,7 @@ def against_scipy(kernel, programs, options):
     ours, theirs = [], []
     for _ in range(options.rounds):
         name = f"aureole/{kernel}"
-        ours.append(medians(programs / "convolution_bench", options.simd, 1, f"^{name}/")[name])
+        ours.append(medians(programs / "convolution_bench", options.simd, 3, f"^{name}/")[name])
         run = subprocess.run(script, check=True, capture_output=True, text=True)
         theirs.append(float(run.stdout))
     return statistics.median(ours), statistics.median(theirs)
