@@ -1,7 +1,6 @@
 #include "eye/components.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -13,6 +12,7 @@
 #include "aureole/base/units.h"
 #include "aureole/wave/diffraction.h"
 #include "aureole/wave/spectral_psf.h"
+#include "eye/stopwatch.h"
 
 namespace aureole::eye {
 namespace {
@@ -27,11 +27,6 @@ constexpr double kHaloFade = 0.15;
 constexpr double kHaloFromDeg = 1.4;
 constexpr double kHaloFullDeg = 2.0;
 constexpr double kHaloReferenceNm = 568;
-
-double seconds() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double>(now).count();
-}
 
 double smoothstep(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -17,16 +16,12 @@
 #include "eye/corona_texture.h"
 #include "eye/kernel_checks.h"
 #include "eye/scatter_pixels.h"
+#include "eye/stopwatch.h"
 
 namespace aureole::eye {
 namespace {
 
 constexpr double kMostDiffractedShare = 0.5;
-
-double seconds() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double>(now).count();
-}
 
 // The central pixels of the scatter term, in the order of the patch.
 Image scatter_patch(const ScatterPixels& scatter, const wave::KernelGrid& patch) {
