@@ -27,6 +27,8 @@ THIRD_PARTY = {
     "hwy::hwy": r"hwy/",
     "PkgConfig::OpenImageIO": r"OpenImageIO/",
     "PkgConfig::OpenColorIO": r"OpenColorIO/",
+    "PkgConfig::cairo": r"cairo(-\w+)?\.h$",
+    "tomlplusplus::tomlplusplus": r"toml\+\+/",
     "PkgConfig::FFTW": r"fftw3\.h$",
     "GTest": r"g(test|mock)/",
     "CLI11::CLI11": r"CLI/",

@@ -1,0 +1,41 @@
+// Ghosts by exact rays: grids that adapt to each ghost, and drawing them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "aureole/lens/flare.h"
+#include "canvas.h"
+#include "film.h"
+#include "ghost_draw.h"
+#include "matrix_ghosts.h"
+
+namespace aureole::lens {
+
+class TracedGhosts {
+  public:
+    TracedGhosts(const Lens& lens, const Iris& iris, const Film& film, const FlareOptions& options,
+                 std::vector<Bounces> ghosts, const Occluder* occluder);
+    ~TracedGhosts();
+    TracedGhosts(TracedGhosts&&) noexcept;
+
+    // Traces and draws by several threads, all wavelengths; marks the levels it uses. The same
+    // bits on any number of threads.
+    void draw(const sources::Light& light, std::span<const GhostDraw> ghosts, Canvas& canvas);
+
+    // For each ghost of the list: an estimate of the sum over pixels of |matrix - traced| over the
+    // energy of the traced one, 0 to 2, from a few hundred rays. `placements` are those of the same
+    // light.
+    void compare(const sources::Light& light, std::span<const MatrixGhost> placements,
+                 std::span<float> difference);
+
+    // Traced by the last draw().
+    std::size_t rays() const noexcept;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace aureole::lens
