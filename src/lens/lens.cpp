@@ -152,7 +152,8 @@ double Lens::index(int medium, double wavelength_nm) const {
     if (medium == 0) return 1;
     const Surface& row = prescription_.surfaces[static_cast<std::size_t>(medium) - 1];
     const Glass* glass = row.glass.empty() ? nullptr : find_glass(row.glass);
-    const double n = glass ? glass->index(wavelength_nm)
+    // The catalogue's curve through the index of the table, which is that of one melt.
+    const double n = glass ? row.index + glass->index(wavelength_nm) - glass->index_d()
                            : cauchy_index(row.index, row.abbe, wavelength_nm);
     if (!(n >= 1) || n > 10) {
         throw InvalidArgument("wavelength_nm", shown(wavelength_nm),
