@@ -98,10 +98,9 @@ Lens::Lens(const Prescription& prescription, const LensSettings& settings)
                 k + 1, shown(row.semi_aperture_mm), shown(face.semi_aperture_mm),
                 shown(row.radius_mm)));
         }
-        face.coating =
-            coating_from_name(row.coating.empty() ? settings.coating : row.coating,
-                              index(static_cast<int>(k), kLineDNm),
-                              index(static_cast<int>(k) + 1, kLineDNm));
+        face.coating = coating_from_name(row.coating.empty() ? settings.coating : row.coating,
+                                         index(static_cast<int>(k), kLineDNm),
+                                         index(static_cast<int>(k) + 1, kLineDNm));
         if (row.stop) stop_ = static_cast<int>(k);
         faces_.push_back(std::move(face));
         if (k + 1 < rows.size()) z += row.thickness_mm;
@@ -125,8 +124,8 @@ Lens::Lens(const Prescription& prescription, const LensSettings& settings)
     f_number_ = settings.f_number != 0 ? settings.f_number : prescription_.f_number;
     if (f_number_ == 0) {
         const double paraxial = cardinal_points(*this, kLineDNm).entrance_pupil_diameter_mm / 2;
-        f_number_ = efl_mm_ / (2 * entrance_height(tracer, stop_, stop_face.semi_aperture_mm,
-                                                   paraxial));
+        f_number_ =
+            efl_mm_ / (2 * entrance_height(tracer, stop_, stop_face.semi_aperture_mm, paraxial));
         return;
     }
     if (!(f_number_ > 0) || !std::isfinite(f_number_)) {
@@ -142,8 +141,8 @@ Lens::Lens(const Prescription& prescription, const LensSettings& settings)
     }
     if (*solved > stop_face.semi_aperture_mm) {
         warnings_.push_back(fmt::format(
-            "surface {}: the stop's radius for f/{} is {} mm, more than the printed {} mm", stop_ + 1,
-            shown(f_number_), shown(*solved), shown(stop_face.semi_aperture_mm)));
+            "surface {}: the stop's radius for f/{} is {} mm, more than the printed {} mm",
+            stop_ + 1, shown(f_number_), shown(*solved), shown(stop_face.semi_aperture_mm)));
     }
     stop_face.semi_aperture_mm = *solved;
 }
@@ -156,9 +155,9 @@ double Lens::index(int medium, double wavelength_nm) const {
     const double n = glass ? row.index + glass->index(wavelength_nm) - glass->index_d()
                            : cauchy_index(row.index, row.abbe, wavelength_nm);
     if (!(n >= 1) || n > 10) {
-        throw InvalidArgument("wavelength_nm", shown(wavelength_nm),
-                              fmt::format("the glass behind surface {} is not defined there",
-                                          medium));
+        throw InvalidArgument(
+            "wavelength_nm", shown(wavelength_nm),
+            fmt::format("the glass behind surface {} is not defined there", medium));
     }
     return n;
 }

@@ -26,9 +26,7 @@ Meridians operator*(const Meridians& left, const Meridians& right) {
     return {left.x * right.x, left.y * right.y};
 }
 
-Meridians gap(double distance_mm) {
-    return {translation(distance_mm), translation(distance_mm)};
-}
+Meridians gap(double distance_mm) { return {translation(distance_mm), translation(distance_mm)}; }
 
 // From behind face `first` (or from the first vertex, -1) to before face `end`, or to the last
 // vertex when `end` is the number of faces; straight through, x meridian.

@@ -35,8 +35,7 @@ std::optional<Hit> intersect_conic(const Face& face, const Vector& p, const Vect
     const double stretch = 1 + face.conic;
     const double a = c * (w.x * d[0] * d[0] + w.y * d[1] * d[1] + stretch * d[2] * d[2]);
     const double b = d[2] - c * (w.x * p[0] * d[0] + w.y * p[1] * d[1] + stretch * p[2] * d[2]);
-    const double g =
-        c * (w.x * p[0] * p[0] + w.y * p[1] * p[1] + stretch * p[2] * p[2]) - 2 * p[2];
+    const double g = c * (w.x * p[0] * p[0] + w.y * p[1] * p[1] + stretch * p[2] * p[2]) - 2 * p[2];
     const double under_root = b * b - a * g;
     if (!(under_root >= 0)) return std::nullopt;
     const double divisor = b + std::copysign(std::sqrt(under_root), d[2]);
@@ -79,8 +78,8 @@ std::optional<Hit> intersect_asphere(const Face& face, const Vector& p, const Ve
     for (int i = 0; i < kIterations; ++i) {
         const auto sag = sag_at(face, w.x * hit[0] * hit[0] + w.y * hit[1] * hit[1]);
         if (!sag) return std::nullopt;
-        const Vector normal = {-sag->slope_over_r * w.x * hit[0],
-                               -sag->slope_over_r * w.y * hit[1], 1};
+        const Vector normal = {-sag->slope_over_r * w.x * hit[0], -sag->slope_over_r * w.y * hit[1],
+                               1};
         const double across = normal[0] * d[0] + normal[1] * d[1] + d[2];
         const double step = (sag->height - hit[2]) / across;
         if (!std::isfinite(step)) return std::nullopt;

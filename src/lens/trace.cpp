@@ -130,8 +130,7 @@ TracedRay Tracer::follow(const Bounces& bounces, const Ray& ray, Visit&& visit) 
         const auto k = static_cast<std::size_t>(step.face);
         const Face& face = faces_[k];
         if (step.backwards ? direction[2] >= 0 : direction[2] <= 0) return end(step, Fate::kTurned);
-        const auto hit =
-            intersect(face, {point[0], point[1], point[2] - face.z_mm}, direction);
+        const auto hit = intersect(face, {point[0], point[1], point[2] - face.z_mm}, direction);
         if (!hit) return end(step, Fate::kMissed);
         point = {hit->point[0], hit->point[1], hit->point[2] + face.z_mm};
         const double clip = std::hypot(point[0], point[1]) / face.semi_aperture_mm;
@@ -142,7 +141,10 @@ TracedRay Tracer::follow(const Bounces& bounces, const Ray& ray, Visit&& visit) 
         } else {
             result.housing_clip = std::max(result.housing_clip, clip);
         }
-        Crossing at{.step = step, .face = face, .point = point, .normal = hit->normal,
+        Crossing at{.step = step,
+                    .face = face,
+                    .point = point,
+                    .normal = hit->normal,
                     .direction = direction};
         at.index_before = indices_[step.backwards ? k + 1 : k];
         at.index_after = indices_[step.backwards ? k : k + 1];
@@ -158,7 +160,7 @@ TracedRay Tracer::follow(const Bounces& bounces, const Ray& ray, Visit&& visit) 
             if (cos2 < 0) return end(step, Fate::kTotalReflection);
             const double refracted = std::copysign(std::sqrt(cos2), along_normal);
             direction = sum(scaled(direction, ratio),
-                           scaled(hit->normal, refracted - ratio * along_normal));
+                            scaled(hit->normal, refracted - ratio * along_normal));
         }
         return true;
     });
