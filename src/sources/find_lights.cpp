@@ -54,9 +54,11 @@ double mean_luminance(const ConstImageView& picture) {
         luminance_row(picture, static_cast<int>(y), values.data());
         // Four independent sums: the order is fixed, and additions overlap.
         double sums[4] = {};
-        for (std::size_t x = 0; x < values.size(); ++x) {
-            sums[x % 4] += static_cast<double>(values[x]);
+        std::size_t x = 0;
+        for (; x + 4 <= values.size(); x += 4) {
+            for (std::size_t s = 0; s < 4; ++s) sums[s] += static_cast<double>(values[x + s]);
         }
+        for (; x < values.size(); ++x) sums[0] += static_cast<double>(values[x]);
         rows[y] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
     });
     return std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(picture.pixels());

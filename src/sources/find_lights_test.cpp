@@ -329,7 +329,7 @@ TEST(FindLights, TheThresholdIsSixteenMeansUnlessGiven) {
 TEST(FindLights, WhatIsNoNumberIsDark) {
     const View view = narrow(64, 48);
     Image picture(64, 48, 3);
-    add_rectangle(picture, 10, 10, 4, 4, {50, 50, 50});
+    add_rectangle(picture, 10, 10, 2, 2, {50, 50, 50});
     const FoundLights clean = find_lights(picture, view);
     picture.at(30, 30, 0) = std::numeric_limits<float>::quiet_NaN();
     picture.at(31, 30, 1) = std::numeric_limits<float>::infinity();

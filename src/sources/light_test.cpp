@@ -54,8 +54,10 @@ TEST(LightAt, MayLieOutsideThePicture) {
 
 TEST(PositionIn, UndoesLightAt) {
     for (const View& view : {kWide, kPanorama}) {
-        for (const double x : {610.0, 960.5, 1400.75}) {
-            for (const double y : {120.0, 500.25, 900.0}) {
+        for (const double dx : {-310.0, 0.5, 240.75}) {
+            for (const double dy : {-220.0, 0.25, 300.0}) {
+                const double x = view.axis_x + dx;
+                const double y = view.axis_y + dy;
                 const PixelPosition position = position_in(view, light_at(view, x, y, kWhite));
                 EXPECT_NEAR(position.x, x, 1e-9);
                 EXPECT_NEAR(position.y, y, 1e-9);
