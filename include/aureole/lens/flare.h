@@ -74,12 +74,12 @@ struct FlareOptions {
     // Large dim ghosts are drawn at a half, a quarter, ... of the resolution as long as all that
     // this displaces is below this share of the flare's energy. 0: all at full resolution. [0, 1).
     double coarse_tolerance = 2e-3;
-    std::vector<GhostSetting> ghosts;       // those that are not the default
+    std::vector<GhostSetting> ghosts = {};  // those that are not the default
     std::array<float, 3> tint = {1, 1, 1};  // of all
     // Transmission over the square [-1, 1]^2 of the projected iris, in place of its shape (one
     // channel; kMatrix draws it, and kHybrid for the ghosts it leaves to matrix; kTraced maps it by
     // the stop position of each ray). Empty: the iris.
-    Image ghost_texture;
+    Image ghost_texture = {};
 };
 
 // Throws InvalidArgument with the option, the value and what is allowed.
