@@ -60,8 +60,9 @@ void CameraOptions::add_options(CLI::App& command, const std::string& fallback_l
     lens_.add_options(*group_, fallback_lens);
     blades_group_ = group_->add_option_group("Its iris");
     CLI::Option_group& iris = *blades_group_;
-    whole_number(iris.add_option("--blades", shape_.blades, "Blades of the iris, 3 to 64; 0: round"),
-                 0, lens::Iris::kMaxBlades)
+    whole_number(
+        iris.add_option("--blades", shape_.blades, "Blades of the iris, 3 to 64; 0: round"), 0,
+        lens::Iris::kMaxBlades)
         ->type_name("N")
         ->capture_default_str();
     number(iris.add_option("--blade-curvature", shape_.curvature,
@@ -124,9 +125,8 @@ Camera CameraOptions::camera(Session& session) const {
     Camera camera{lens_.lens(session), iris(), std::nullopt, sensor_mm[0], sensor_mm[1]};
     if (!occluder_file_.empty()) {
         const double diameter_mm = 2 * camera.lens.faces().front().semi_aperture_mm;
-        camera.occluder = made_from(occluder_file_, [&](const Image& image) {
-            return lens::Occluder(image, diameter_mm);
-        });
+        camera.occluder = made_from(
+            occluder_file_, [&](const Image& image) { return lens::Occluder(image, diameter_mm); });
     }
     return camera;
 }

@@ -49,12 +49,13 @@ Image under_matte(const ConstImageView& color, const float* matte) {
 void LightOptions::add_options(CLI::App& command) {
     group_ = command.add_option_group("Lights");
     group_
-        ->add_option("--light", given_,
-                     "A light at X,Y,RADIANCE[,DIAMETER_DEG], in place of those of the picture; may "
-                     "be repeated. X,Y: pixels from the top left corner of the display window, also "
-                     "outside of it; or degrees to the right and up from the axis, as in "
-                     "12deg,-3deg. RADIANCE: in the picture's units, one number or R:G:B. "
-                     "DIAMETER_DEG: 0.53 for the sun; without it a point as bright as one pixel")
+        ->add_option(
+            "--light", given_,
+            "A light at X,Y,RADIANCE[,DIAMETER_DEG], in place of those of the picture; may "
+            "be repeated. X,Y: pixels from the top left corner of the display window, also "
+            "outside of it; or degrees to the right and up from the axis, as in "
+            "12deg,-3deg. RADIANCE: in the picture's units, one number or R:G:B. "
+            "DIAMETER_DEG: 0.53 for the sun; without it a point as bright as one pixel")
         ->type_name("LIGHT")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -98,7 +99,8 @@ LightOptions::Given LightOptions::parse(const std::string& text) {
     given.y = *y;
     given.diameter_deg = *diameter;
     for (std::size_t c = 0; c < 3; ++c) {
-        const auto value = static_cast<float>(radiance->size() == 3 ? (*radiance)[c] : (*radiance)[0]);
+        const auto value =
+            static_cast<float>(radiance->size() == 3 ? (*radiance)[c] : (*radiance)[0]);
         if (!(value >= 0) || !std::isfinite(value)) throw wrong;
         given.radiance[c] = value;
     }
@@ -116,9 +118,9 @@ void LightOptions::check() const {
     }
     if (const std::string option = app::first_given(*search_group_);
         !searches() && !option.empty()) {
-        throw InvalidArgument("--light", given_.front(),
-                              "replaces the lights of the picture: leave out " + option +
-                                  ", or add --found-lights");
+        throw InvalidArgument(
+            "--light", given_.front(),
+            "replaces the lights of the picture: leave out " + option + ", or add --found-lights");
     }
 }
 
@@ -149,18 +151,20 @@ PictureLights LightOptions::lights(const io::Picture& picture, const View& displ
     Image masked;
     if (matte != nullptr) masked = under_matte(picture.color(), matte);
     result.searched = true;
-    result.search = sources::find_lights(matte != nullptr ? masked : picture.color(), data, options);
+    result.search =
+        sources::find_lights(matte != nullptr ? masked : picture.color(), data, options);
     const sources::FoundLights& found = result.search;
     result.lights.insert(result.lights.end(), found.lights.begin(), found.lights.end());
     if (found.lights.empty()) {
-        session.note(fmt::format("no pixel is brighter than {:.4g}: no lights found "
-                                 "(--light-threshold, --light)",
-                                 found.threshold));
+        session.note(
+            fmt::format("no pixel is brighter than {:.4g}: no lights found "
+                        "(--light-threshold, --light)",
+                        found.threshold));
     } else if (found.energy_dropped > 0) {
-        session.note(fmt::format("the weakest lights, {:.2g} % of the light found, make no ghosts "
-                                 "(--max-lights)",
-                                 100 * found.energy_dropped /
-                                     (found.energy_kept + found.energy_dropped)));
+        session.note(
+            fmt::format("the weakest lights, {:.2g} % of the light found, make no ghosts "
+                        "(--max-lights)",
+                        100 * found.energy_dropped / (found.energy_kept + found.energy_dropped)));
     }
     return result;
 }

@@ -1,4 +1,5 @@
-// The path of one picture through `aureole glare`: read, see, spread, write.
+// The path of a picture through `aureole glare` and `aureole flare`: read, look at, spread, add
+// ghosts, write.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,51 +7,51 @@
 #include <string>
 #include <vector>
 
-#include "aureole/eye/anatomy.h"
 #include "aureole/glare/glare.h"
 #include "aureole/io/picture.h"
 #include "display_options.h"
-#include "eye_options.h"
 #include "frame_files.h"
+#include "observer.h"
 #include "output_options.h"
 #include "session.h"
-#include "view_options.h"
 
 namespace aureole::app {
 
-// The options of the command; those of `output` are added by the command itself.
-struct GlareSettings {
-    void add_options(CLI::App& command);
+// The options of both commands; those of `output` are added by the commands themselves.
+struct PictureSettings {
+    // --output-layers, --matte, --side-by-side to `group`, those of displays to `command`.
+    void add_options(CLI::App& group, CLI::App& command);
     // Checks what can be checked before the first picture is read.
     void prepare(const std::vector<FrameFiles>& files);
 
     OutputOptions output;
-    ViewOptions view;
-    EyeOptions eye;
     DisplayOptions display;
-    std::string psf_file;
-    std::string method = "auto";
+    CLI::Option* layers_option = nullptr;
     std::string layers = "composite";
     std::string matte_file;
-    float threshold = 0;
-    float gain = 1;
-    std::string surround = "dark";
     std::string side_by_side_file;
 };
 
-// Which pictures the eye adapts to if the options do not say.
-enum class Metering {
-    kEachPicture,  // pictures that have nothing to do with each other
-    kFirst,        // a sequence keeps the eye of its first picture
+// How a PSF is applied.
+struct SpreadSettings {
+    void add_options(CLI::App& group);
+    glare::GlareOptions options(bool matte) const;
+
+    std::string method = "auto";
+    float threshold = 0;
+    float gain = 1;
+    std::string surround = "dark";
 };
 
 // Pictures one after another; PSF and transforms are kept as long as the view and the eye stay.
-class GlareJob {
+class PictureJob {
   public:
-    GlareJob(const GlareSettings& settings, Session& session, Metering metering)
-        : settings_(settings), session_(session), metering_(metering) {}
+    PictureJob(const PictureSettings& settings, const SpreadSettings& spread, Observer& observer,
+               Session& session)
+        : settings_(settings), spread_(spread), observer_(observer), session_(session) {}
 
-    void process(const FrameFiles& files);
+    // With progress, as far as nobody interrupts.
+    void process(const std::vector<FrameFiles>& list);
     // Fills the session's JSON report and returns a summary for people.
     std::string report();
 
@@ -60,26 +61,31 @@ class GlareJob {
         View display;  // of the display window
         View view;     // of the data window: all of it makes glare
         int channels;
-        double metered_cd_m2;  // 0: not needed
-        eye::Eye eye;
-        glare::Glare glare;
+        std::optional<glare::Glare> glare;  // none if light does not spread
+    };
+    struct Energy : glare::Energy {
+        double ghosts = 0;
     };
 
+    void process(const FrameFiles& files);
     void prepare(const io::Picture& picture);
-    double adaptation_for(const io::Picture& picture);
     const float* matte_for(const io::Picture& picture);
-    void write(const FrameFiles& files, const io::Picture& picture, const Image& result);
+    void spread(const ConstImageView& in, const float* matte);
+    void add_ghosts(const Image& ghosts);
+    void write(const FrameFiles& files, const io::Picture& picture);
 
-    const GlareSettings& settings_;
+    const PictureSettings& settings_;
+    const SpreadSettings& spread_;
+    Observer& observer_;
     Session& session_;
-    Metering metering_;
     std::optional<Prepared> prepared_;
-    std::optional<double> first_metered_cd_m2_;
+    Image solid_angles_;  // of pixels, relative to that on the axis
     Image result_;
+    Image layer_;  // what was added and taken away; empty unless it is written
     Image matte_;
-    glare::Energy energy_;
+    Energy energy_;
+    bool has_ghosts_ = false;
     double exposure_ev_ = 0;  // of the last picture, for the report
-    double white_luminance_cd_m2_ = 0;
     std::size_t nonfinite_pixels_ = 0;
     std::vector<std::string> written_;
 };
