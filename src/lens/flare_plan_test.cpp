@@ -104,7 +104,9 @@ TEST(FlarePlan, LevelsStayWithinTheirTolerance) {
         EXPECT_LE(displaced, tolerance * total);
         EXPECT_NEAR(totals.coarse_displaced, displaced / total, 1e-12);
         EXPECT_LT(pixels, pixels_before);
-        if (tolerance == 0) EXPECT_EQ(displaced, 0);
+        if (tolerance == 0) {
+            EXPECT_EQ(displaced, 0);
+        }
         pixels_before = pixels;
     }
 }

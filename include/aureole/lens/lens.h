@@ -16,7 +16,7 @@
 namespace aureole::lens {
 
 struct LensSettings {
-    std::string position;          // of a zoom; empty: its first
+    std::string position = {};     // of a zoom; empty: its first
     double f_number = 0;           // 0: as stated, or what the printed stop gives if nothing is
     double focus_distance_m = 0;   // from the sensor to what is in focus; 0: infinity
     std::string coating = "mgf2";  // of the air-glass faces for which the table names none
