@@ -33,6 +33,8 @@ struct Surface {
     double conic = 0;             // 0 sphere, -1 paraboloid
     std::vector<double> asphere;  // coefficients of r^4, r^6, ... r^16 in mm^-3, mm^-5, ...
     std::string coating;          // by name (coating.h); empty: what the user asks for
+
+    bool operator==(const Surface&) const = default;
 };
 
 // One setting of a zoom: what differs from the rows as printed.
@@ -40,12 +42,16 @@ struct Position {
     struct Gap {
         int surface = 0;  // number of the row, from 1
         double thickness_mm = 0;
+
+        bool operator==(const Gap&) const = default;
     };
     std::string name;  // "wide", "mid", "tele"
     double focal_length_mm = 0;
     double f_number = 0;   // 0: unknown
     double field_deg = 0;  // 0: unknown
     std::vector<Gap> gaps;
+
+    bool operator==(const Position&) const = default;
 };
 
 struct Prescription {
@@ -59,6 +65,8 @@ struct Prescription {
     std::vector<Surface> surfaces;
     std::vector<Position> positions;    // empty: a prime
     std::vector<std::string> warnings;  // what a parser mended or ignored, with surface numbers
+
+    bool operator==(const Prescription&) const = default;
 };
 
 inline constexpr int kMaxSurfaces = 1000;
@@ -67,9 +75,9 @@ inline constexpr int kMaxSurfaces = 1000;
 // there are 2 to kMaxSurfaces rows, exactly one stop, and neither first nor last medium glass;
 // indices are in [1, 5], Abbe numbers 0 or in [5, 150], gaps finite and >= 0 (the last may be
 // anything finite), radii finite, semi-apertures finite and > 0, at most 7 asphere coefficients,
-// glasses in the catalogue; the stop is flat between equal media; positions name existing rows,
-// positive focal lengths, and each its own name.
-// A semi-aperture above |radius| is no error: Lens clips it and warns.
+// glasses in the catalogue and within 0.002 of the index; the stop is flat between equal media;
+// positions name existing rows, positive focal lengths, and each its own name. A semi-aperture
+// above |radius| is no error: Lens clips it and warns.
 void validate(const Prescription& prescription);
 
 // The rows with the gaps of a position put in, and its focal length, f-number and field; without

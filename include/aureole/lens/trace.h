@@ -61,13 +61,14 @@ class Tracer {
     double throughput(const Bounces& bounces, const Ray& ray) const;
 
   private:
-    struct Work;
+    // Calls `visit` at every crossing (trace.cpp).
+    template <class Visit>
+    TracedRay follow(const Bounces& bounces, const Ray& ray, Visit&& visit) const;
+
     std::vector<Face> faces_;
     std::vector<double> indices_;
-    std::vector<Step> steps_for(const Bounces& bounces) const;
     double sensor_z_mm_ = 0;
     double wavelength_nm_ = 0;
-    int stop_ = 0;
 };
 
 }  // namespace aureole::lens
