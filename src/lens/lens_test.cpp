@@ -35,7 +35,7 @@ TEST(Lens, StopOfTheSeedDocument) {
     EXPECT_NEAR(lens.efl_mm() / lens.f_number(), 10, 0.4);
     // With the nominal focal length, as the document has it.
     const Lens nominal(shipped_lens("nikon-28-75"), {.f_number = lens.efl_mm() / 10});
-    EXPECT_NEAR(2 * nominal.stop_radius_mm(), 22, 0.7);
+    EXPECT_NEAR(2 * nominal.stop_radius_mm(), 22, 0.2);
     // The printed stop of 9 mm is that of f/3.44.
     EXPECT_THAT(lens.warnings(), Contains(HasSubstr("surface 15: the stop's radius for f/2.8")));
 }
