@@ -139,7 +139,9 @@ Lens::Lens(const Prescription& prescription, const LensSettings& settings)
             fmt::format("too small: a ray that enters {} mm from the axis misses the lens",
                         shown(entrance)));
     }
-    if (*solved > stop_face.semi_aperture_mm) {
+    // Printed f-numbers are rounded ones.
+    constexpr double kRounding = 1.01;
+    if (*solved > kRounding * stop_face.semi_aperture_mm) {
         warnings_.push_back(fmt::format(
             "surface {}: the stop's radius for f/{} is {} mm, more than the printed {} mm",
             stop_ + 1, shown(f_number_), shown(*solved), shown(stop_face.semi_aperture_mm)));

@@ -1,0 +1,524 @@
+// Exact rays, held to closed forms, to reversibility, and to symmetry.
+#include "aureole/lens/trace.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "aureole/lens/glass.h"
+#include "aureole/lens/library.h"
+#include "aureole/lens/paraxial.h"
+#include "lens/test_lenses.h"
+
+namespace aureole::lens {
+namespace {
+
+// Where a ray that arrived crosses the axis, behind the last vertex.
+double axis_crossing(const Lens& lens, const TracedRay& ray) {
+    return lens.sensor_z_mm() - lens.faces().back().z_mm -
+           ray.y_mm * ray.direction[2] / ray.direction[1];
+}
+
+TracedRay parallel(const Lens& lens, double height_mm) {
+    return Tracer(lens, kLineDNm).trace({}, ray_from_light(0, 0, 0, height_mm));
+}
+
+// Parallel light that leaves glass through a sphere: the sine theorem gives the crossing.
+TEST(Trace, SphericalAberrationOfOneSphere) {
+    const double n = 1.6, r = 40;
+    const Lens lens(lens_of({{.thickness_mm = 1, .stop = true},
+                             {.thickness_mm = 10, .index = n, .semi_aperture_mm = 25},
+                             {.radius_mm = -r, .semi_aperture_mm = 25}}));
+    for (double height = 0.5; height < 24.9; height += 0.7) {
+        const double i = std::asin(height / r);
+        const double out = std::asin(n * height / r);
+        const double crossing = r * std::sin(out) / std::sin(out - i) - r;
+        const TracedRay ray = parallel(lens, height);
+        ASSERT_EQ(ray.fate, Fate::kArrived);
+        EXPECT_NEAR(axis_crossing(lens, ray), crossing, 1e-11 * r);
+        EXPECT_NEAR(ray.direction[1], -std::sin(out - i), 1e-14);
+    }
+    // sin i > 1 / n = 0.625 from h = 25 on.
+    const TracedRay beyond = parallel(lens, 25.01);
+    EXPECT_EQ(beyond.fate, Fate::kTotalReflection);
+    EXPECT_EQ(beyond.failed_face, 2);
+    EXPECT_FALSE(beyond.passes());
+    const Tracer tracer(lens, kLineDNm);
+    EXPECT_EQ(tracer.throughput({}, ray_from_light(0, 0, 0, 25.01)), 0);
+}
+
+// Light parallel in glass is focused without aberration by a hyperboloid of conic -n^2 into air
+// (Descartes), at |r| / (n - 1).
+TEST(Trace, HyperboloidFocusesExactly) {
+    const double n = 1.5, r = 30;
+    const Lens lens(lens_of({{.semi_aperture_mm = 40, .stop = true},
+                             {.thickness_mm = 20, .index = n, .semi_aperture_mm = 40},
+                             {.radius_mm = -r, .semi_aperture_mm = 40, .conic = -n * n}}));
+    for (double height = 1; height < 40; height += 1.3) {
+        const TracedRay ray = parallel(lens, height);
+        ASSERT_EQ(ray.fate, Fate::kArrived);
+        EXPECT_NEAR(axis_crossing(lens, ray), r / (n - 1), 1e-11);
+    }
+}
+
+// Light from air is focused by an ellipsoid of conic -1 / n^2 at n r / (n - 1) within the glass; a
+// sphere around that point lets it out undeviated.
+TEST(Trace, EllipsoidFocusesExactly) {
+    const double n = 1.7, r = 25, d = 15;
+    const double focus = n * r / (n - 1);
+    const Lens lens(lens_of({{.thickness_mm = 2, .semi_aperture_mm = 20, .stop = true},
+                             {.radius_mm = r,
+                              .thickness_mm = d,
+                              .index = n,
+                              .semi_aperture_mm = 20,
+                              .conic = -1 / (n * n)},
+                             {.radius_mm = focus - d, .semi_aperture_mm = 20}}));
+    for (double height = 1; height < 20; height += 0.9) {
+        const TracedRay ray = parallel(lens, height);
+        ASSERT_EQ(ray.fate, Fate::kArrived);
+        EXPECT_NEAR(axis_crossing(lens, ray), focus - d, 1e-11);
+    }
+}
+
+// A paraboloid reflects parallel light into its focus: the far face of a ghost, the near one being
+// plane, folds that to twice their distance minus the focal length. All of it in air; the last
+// face only makes it a lens.
+TEST(Trace, ParaboloidReflectsIntoItsFocus) {
+    const double r = -100, distance = 20;
+    const Lens lens(
+        lens_of({{.thickness_mm = distance, .semi_aperture_mm = 45, .stop = true},
+                 {.radius_mm = r, .thickness_mm = 30, .semi_aperture_mm = 45, .conic = -1},
+                 {.radius_mm = 60, .thickness_mm = 2, .index = 1.5},
+                 {.semi_aperture_mm = 45}}));
+    const Tracer tracer(lens, kLineDNm);
+    for (double height = 1; height < 20; height += 1) {
+        std::vector<Vector> path;
+        tracer.trace({1, 0}, ray_from_light(0, 0, 0.6 * height, 0.8 * height), &path);
+        ASSERT_GE(path.size(), 5u);  // origin, plane, paraboloid, plane, paraboloid
+        const Vector& a = path[3];
+        const Vector& b = path[4];
+        EXPECT_NEAR(a[2], 0, 1e-13);
+        // The mirror's focus at distance + r / 2 = -30 is seen in the plane mirror at +30.
+        const double t = (30 - a[2]) / (b[2] - a[2]);
+        EXPECT_NEAR(a[0] + t * (b[0] - a[0]), 0, 1e-11);
+        EXPECT_NEAR(a[1] + t * (b[1] - a[1]), 0, 1e-11);
+    }
+}
+
+// The even asphere that a sphere is: a paraboloid with the rest of the sphere's series.
+TEST(Trace, AsphereThatIsASphere) {
+    const double r = 50, c = 1 / r;
+    std::vector<double> series;  // of r^4, r^6, ...: c^(2 k - 1) (2 k - 3)!! / (2 k)!!
+    double term = c / 2;
+    for (int k = 2; k <= 8; ++k) {
+        term *= c * c * (2 * k - 3) / (2 * k);
+        series.push_back(term);
+    }
+    const auto lens = [&](bool asphere) {
+        TestRow front{.radius_mm = r, .thickness_mm = 6, .index = 1.6};
+        if (asphere) {
+            front.conic = -1;
+            front.asphere = series;
+        }
+        return Lens(lens_of({{.stop = true}, front, {.radius_mm = -80}}, 5));
+    };
+    const Lens sphere = lens(false);
+    const Lens asphere = lens(true);
+    const Tracer a(sphere, kLineDNm);
+    const Tracer b(asphere, kLineDNm);
+    for (double height = -6; height <= 6; height += 0.5) {
+        const Ray ray = ray_from_light(0.05, 0.1, 1, height);
+        for (const Bounces& way : {Bounces{}, Bounces{2, 1}}) {
+            const TracedRay x = a.trace(way, ray);
+            const TracedRay y = b.trace(way, ray);
+            ASSERT_EQ(x.fate, Fate::kArrived);
+            ASSERT_EQ(y.fate, Fate::kArrived);
+            // The first term left out is r^18 c^17: 1e-16 mm at 6.5 mm.
+            EXPECT_NEAR(x.x_mm, y.x_mm, 1e-11);
+            EXPECT_NEAR(x.y_mm, y.y_mm, 1e-11);
+        }
+    }
+}
+
+TEST(Trace, CylinderDoesNothingAlongItself) {
+    const auto lens = [](Profile profile) {
+        return Lens(lens_of({{.thickness_mm = 3, .stop = true},
+                             {.radius_mm = 30, .thickness_mm = 5, .index = 1.5, .profile = profile},
+                             {.radius_mm = -45}},
+                            8));
+    };
+    const Tracer cylinder_x(lens(Profile::kCylinderX), kLineDNm);
+    const Tracer cylinder_y(lens(Profile::kRotational), kLineDNm);
+    const Lens flat_lens(lens_of(
+        {{.thickness_mm = 3, .stop = true}, {.thickness_mm = 5, .index = 1.5}, {.radius_mm = -45}},
+        8));
+    const Tracer flat(flat_lens, kLineDNm);
+    for (double at = -6; at <= 6; at += 1.5) {
+        std::vector<Vector> bent, plain;
+        // In the y-z plane: as through a plane face.
+        cylinder_x.trace({}, ray_from_light(0, 0.2, 0, at), &bent);
+        flat.trace({}, ray_from_light(0, 0.2, 0, at), &plain);
+        for (std::size_t k = 0; k < 4; ++k) {
+            EXPECT_NEAR(bent[k][1], plain[k][1], 1e-13);
+            EXPECT_NEAR(bent[k][2], plain[k][2], 1e-13);
+        }
+        // In the x-z plane: as through the sphere.
+        cylinder_x.trace({}, ray_from_light(0.2, 0, at, 0), &bent);
+        cylinder_y.trace({}, ray_from_light(0.2, 0, at, 0), &plain);
+        for (std::size_t k = 0; k < 4; ++k) {
+            EXPECT_NEAR(bent[k][0], plain[k][0], 1e-13);
+            EXPECT_NEAR(bent[k][2], plain[k][2], 1e-13);
+        }
+    }
+}
+
+// A lens turned round: rays, direct or ghosts, go back where they came from, and as much energy is
+// left of them.
+Prescription turned_round(const Prescription& lens) {
+    Prescription turned = lens;
+    auto& rows = turned.surfaces;
+    std::reverse(rows.begin(), rows.end());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const std::size_t original = rows.size() - 1 - k;
+        rows[k].radius_mm = -rows[k].radius_mm;
+        for (double& a : rows[k].asphere) a = -a;
+        // The medium behind, now, is the one that was in front.
+        rows[k].index = original > 0 ? lens.surfaces[original - 1].index : 1;
+        rows[k].thickness_mm = original > 0 ? lens.surfaces[original - 1].thickness_mm : 0;
+    }
+    return turned;
+}
+
+TEST(Trace, RaysGoBackTheWayTheyCame) {
+    const Prescription table = lens_of(
+        {{.radius_mm = 50, .thickness_mm = 6, .index = 1.7, .conic = 0.4, .asphere = {2e-6}},
+         {.radius_mm = -70, .thickness_mm = 2, .index = 1.6},
+         {.radius_mm = 90, .thickness_mm = 5},
+         {.thickness_mm = 4, .stop = true},
+         {.radius_mm = -60, .thickness_mm = 3, .index = 1.65},
+         {.radius_mm = -35}});
+    const Lens lens(table);
+    const Lens turned(turned_round(table));
+    const Tracer there(lens, 500);
+    const Tracer back(turned, 500);
+    const double length = lens.faces().back().z_mm;
+    const int last = static_cast<int>(table.surfaces.size()) - 1;
+    std::vector<Bounces> ways = enumerate_ghosts(lens, GhostSet::kAll);
+    ways.push_back({});
+    int arrived = 0;
+    for (const Bounces& way : ways) {
+        const Bounces mirrored = way.direct() ? way : Bounces{last - way.near, last - way.far};
+        for (double x = -4; x <= 4; x += 1.1) {
+            const Ray ray = ray_from_light(0.07, -0.03, x, 1.5);
+            const TracedRay out = there.trace(way, ray);
+            if (out.fate != Fate::kArrived) continue;
+            ++arrived;
+            // z turns round, x stays: a mirrored world, in which light runs backwards.
+            const Ray reversed{{out.x_mm, out.y_mm, length - lens.sensor_z_mm()},
+                               {-out.direction[0], -out.direction[1], out.direction[2]}};
+            std::vector<Vector> path;
+            const TracedRay home = back.trace(mirrored, reversed, &path);
+            ASSERT_EQ(home.fate, Fate::kArrived);
+            EXPECT_NEAR(home.direction[0], -ray.direction[0], 1e-11);
+            EXPECT_NEAR(home.direction[1], -ray.direction[1], 1e-11);
+            // Where it crosses z = 0 of the first lens.
+            const double t = (length - turned.sensor_z_mm()) / home.direction[2];
+            EXPECT_NEAR(home.x_mm + t * home.direction[0], x, 1e-9);
+            EXPECT_NEAR(home.y_mm + t * home.direction[1], 1.5, 1e-9);
+            EXPECT_NEAR(back.throughput(mirrored, reversed), there.throughput(way, ray), 1e-12);
+        }
+    }
+    EXPECT_GT(arrived, 60);
+}
+
+TEST(Trace, CoordinatesOfTheHeader) {
+    // Light from the upper right goes down and left, and the image stands on its head.
+    const Ray ray = ray_from_light(0.01, 0.02, 3, 4);
+    EXPECT_EQ(ray.origin, (Vector{3, 4, 0}));
+    EXPECT_NEAR(ray.direction[0] / ray.direction[2], -0.01, 1e-15);
+    EXPECT_NEAR(ray.direction[1] / ray.direction[2], -0.02, 1e-15);
+    const Lens lens(shipped_lens("double-gauss"));
+    const TracedRay image = Tracer(lens, kLineDNm).trace({}, ray_from_light(0.01, 0.02, 0, 0));
+    EXPECT_NEAR(image.x_mm, -0.01 * lens.efl_mm(), 0.001 * lens.efl_mm() * 0.01);
+    EXPECT_NEAR(image.y_mm, -0.02 * lens.efl_mm(), 0.001 * lens.efl_mm() * 0.02);
+}
+
+TEST(Trace, PathAndClips) {
+    const Lens lens(shipped_lens("nikon-28-75"));
+    const Tracer tracer(lens, 550);
+    const Bounces across{20, 3};  // over the stop three times
+    std::vector<Vector> path;
+    const Ray ray = ray_from_light(0.002, 0.005, 0.1, -0.2);
+    const TracedRay traced = tracer.trace(across, ray, &path);
+    ASSERT_EQ(traced.fate, Fate::kArrived);
+    const std::vector<Step> steps = steps_of(lens, across);
+    ASSERT_EQ(path.size(), steps.size() + 2);
+    double stop_clip = 0, housing_clip = 0;
+    int at_stop = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const Face& face = lens.faces()[static_cast<std::size_t>(steps[i].face)];
+        const double r = std::hypot(path[i + 1][0], path[i + 1][1]);
+        // On the sphere: (z - z0 - R)^2 + r^2 = R^2, without its centre.
+        const double z = path[i + 1][2] - face.z_mm;
+        EXPECT_NEAR(face.curvature_per_mm * (r * r + z * z) - 2 * z, 0, 1e-12);
+        (face.stop ? stop_clip : housing_clip) =
+            std::max(face.stop ? stop_clip : housing_clip, r / face.semi_aperture_mm);
+        if (!face.stop) continue;
+        ++at_stop;
+        if (at_stop < 3) continue;
+        EXPECT_EQ(traced.stop_x_mm, path[i + 1][0]);
+        EXPECT_EQ(traced.stop_y_mm, path[i + 1][1]);
+    }
+    EXPECT_EQ(at_stop, 3);
+    EXPECT_NEAR(traced.stop_clip, stop_clip, 1e-14);
+    EXPECT_NEAR(traced.housing_clip, housing_clip, 1e-14);
+    EXPECT_EQ(path.back()[2], lens.sensor_z_mm());
+    EXPECT_EQ(path.back()[0], traced.x_mm);
+    // An aperture in the way is told and does not end the ray.
+    const TracedRay wide = tracer.trace({}, ray_from_light(0, 0, 0, 8));
+    EXPECT_EQ(wide.fate, Fate::kArrived);
+    EXPECT_GT(wide.stop_clip, 1);
+    EXPECT_FALSE(wide.passes());
+    EXPECT_TRUE(tracer.trace({}, ray_from_light(0, 0, 0, 3)).passes());
+}
+
+TEST(Trace, MissedAndTurned) {
+    const Lens lens(lens_of({{.thickness_mm = 20, .stop = true},
+                             {.radius_mm = 10, .thickness_mm = 4, .index = 1.5},
+                             {.radius_mm = -30}},
+                            20));
+    const Tracer tracer(lens, 550);
+    const TracedRay missed = tracer.trace({}, ray_from_light(0, 0, 0, 10.1));
+    EXPECT_EQ(missed.fate, Fate::kMissed);
+    EXPECT_EQ(missed.failed_face, 1);
+    const TracedRay backwards = tracer.trace({}, {{0, 0, -1}, {0, 0.6, -0.8}});
+    EXPECT_EQ(backwards.fate, Fate::kTurned);
+    EXPECT_EQ(backwards.failed_face, 0);
+    // Reflected far out on a ball, where its face stands steeper than 45 degrees, light goes on
+    // towards the sensor instead of back.
+    const TracedRay turned = tracer.trace({1, 0}, ray_from_light(0, 0, 0, 9));
+    EXPECT_EQ(turned.fate, Fate::kTurned);
+    EXPECT_EQ(turned.failed_face, 0);
+}
+
+// Everything known about one ray from its path alone: 3 x 3 Jones matrices of real amplitudes.
+double throughput_by_matrices(const Lens& lens, const Bounces& way, const Ray& ray,
+                              double wavelength_nm) {
+    using Matrix3 = std::array<Vector, 3>;
+    std::vector<Vector> path;
+    if (Tracer(lens, wavelength_nm).trace(way, ray, &path).fate != Fate::kArrived) return 0;
+    const auto dot = [](const Vector& a, const Vector& b) {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    };
+    const auto cross = [](const Vector& a, const Vector& b) {
+        return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                      a[0] * b[1] - a[1] * b[0]};
+    };
+    const auto unit = [&](Vector v) {
+        const double length = std::sqrt(dot(v, v));
+        for (double& x : v) x /= length;
+        return v;
+    };
+    const std::vector<double> index = lens.indices(wavelength_nm);
+    const std::vector<Step> steps = steps_of(lens, way);
+    const auto towards = [&](std::size_t i) {
+        // Where neighbouring faces meet far from the axis, the next point may lie behind.
+        const bool backwards = i < steps.size() && steps[i].backwards;
+        const double sign = (path[i + 1][2] < path[i][2]) == backwards ? 1 : -1;
+        return unit({sign * (path[i + 1][0] - path[i][0]), sign * (path[i + 1][1] - path[i][1]),
+                     sign * (path[i + 1][2] - path[i][2])});
+    };
+    Matrix3 field{};  // columns: what became of x, y, z of the field
+    for (std::size_t a = 0; a < 3; ++a) {
+        for (std::size_t b = 0; b < 3; ++b) {
+            field[a][b] = (a == b ? 1 : 0) - ray.direction[a] * ray.direction[b];
+        }
+    }
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const auto k = static_cast<std::size_t>(steps[i].face);
+        const Face& face = lens.faces()[k];
+        const double before = index[steps[i].backwards ? k + 1 : k];
+        const double after = index[steps[i].backwards ? k : k + 1];
+        const Vector in = i == 0 ? ray.direction : towards(i);
+        const Vector out = towards(i + 1);
+        const Vector& at = path[i + 1];
+        const double c = face.curvature_per_mm;
+        const Vector normal = {-c * at[0], -c * at[1], 1 - c * (at[2] - face.z_mm)};
+        Coating layers = face.coating;
+        if (steps[i].backwards) std::reverse(layers.begin(), layers.end());
+        const Reflectance r =
+            reflectance(before, after, layers, wavelength_nm, std::abs(dot(in, normal)));
+        const Vector s = unit(cross(in, normal));
+        const Vector p_in = cross(in, s);
+        Vector p_out = cross(out, s);
+        double ts = std::sqrt(1 - r.s), tp = std::sqrt(1 - r.p);
+        if (steps[i].reflects) {
+            ts = -std::sqrt(r.s);  // a mirror turns the field round: -E along s,
+            tp = std::sqrt(r.p);   // and along p in the frame of the new direction +E
+        }
+        Matrix3 next{};
+        for (std::size_t b = 0; b < 3; ++b) {
+            double along_s = 0, along_p = 0;
+            for (std::size_t a = 0; a < 3; ++a) {
+                along_s += s[a] * field[a][b];
+                along_p += p_in[a] * field[a][b];
+            }
+            for (std::size_t a = 0; a < 3; ++a) {
+                next[a][b] = ts * along_s * s[a] + tp * along_p * p_out[a];
+            }
+        }
+        field = next;
+    }
+    double energy = 0;
+    for (const Vector& row : field) energy += dot(row, row);
+    return energy / 2;
+}
+
+TEST(Throughput, EqualsJonesMatricesAlongSkewRays) {
+    for (const char* coating : {"none", "mgf2", "broadband"}) {
+        const Lens lens(shipped_lens("biotar"), {.f_number = 2, .coating = coating});
+        const Tracer tracer(lens, 480);
+        std::vector<Bounces> ways = enumerate_ghosts(lens, GhostSet::kAll);
+        ways.push_back({});
+        int compared = 0;
+        for (const Bounces& way : ways) {
+            const Ray ray = ray_from_light(0.15, 0.1, 9, -14);
+            const double got = tracer.throughput(way, ray);
+            EXPECT_NEAR(got, throughput_by_matrices(lens, way, ray, 480), 1e-12);
+            compared += got > 0;
+        }
+        EXPECT_GT(compared, 15);
+    }
+}
+
+// On the axis there is no angle: the product of the reference's formula,
+// R_i R_j T_i T_j, T_k once outside the two and three times between them.
+TEST(Throughput, OnTheAxisIsTheProductOfTheReference) {
+    const Lens lens(shipped_lens("heliar"));
+    const std::vector<double> index = lens.indices(520);
+    std::vector<double> r;
+    for (std::size_t k = 0; k < lens.faces().size(); ++k) {
+        r.push_back(reflectance(index[k], index[k + 1], lens.faces()[k].coating, 520, 1).mean());
+    }
+    const Tracer tracer(lens, 520);
+    for (const Bounces& way : enumerate_ghosts(lens, GhostSet::kAll)) {
+        double expected = 1;
+        for (int k = 0; k < static_cast<int>(r.size()); ++k) {
+            const double reflected = r[static_cast<std::size_t>(k)];
+            const double passed = 1 - reflected;
+            if (k == way.near || k == way.far) {
+                expected *= reflected * passed;
+            } else {
+                expected *= k > way.near && k < way.far ? passed * passed * passed : passed;
+            }
+        }
+        EXPECT_NEAR(tracer.throughput(way, {}), expected, 1e-14 * expected);
+    }
+}
+
+// Turning ray and lens together changes nothing; in the plane of the axis s and p never mix.
+TEST(Throughput, IsTheSameAllRoundTheAxis) {
+    const Lens lens(shipped_lens("double-gauss"), {.coating = "none"});
+    const Tracer tracer(lens, 600);
+    for (const Bounces& way : {Bounces{}, Bounces{3, 1}, Bounces{9, 2}}) {
+        const double reference = tracer.throughput(way, ray_from_light(0, 0.12, 2, 3));
+        ASSERT_GT(reference, 0);
+        for (double turn = 0.3; turn < 6.3; turn += 0.7) {
+            const double c = std::cos(turn), s = std::sin(turn);
+            const Ray ray = ray_from_light(-0.12 * s, 0.12 * c, 2 * c - 3 * s, 2 * s + 3 * c);
+            EXPECT_NEAR(tracer.throughput(way, ray), reference, 1e-12 * reference);
+        }
+    }
+}
+
+// A plate lets through what a plate lets through: (1 - R)^2 in s and in p, at any angle.
+TEST(Throughput, OfAPlate) {
+    const Lens lens(lens_of({{.thickness_mm = 5, .stop = true},
+                             {.thickness_mm = 5, .index = 1.5, .coating = "none"},
+                             {.thickness_mm = 20, .coating = "none"},
+                             {.radius_mm = 1e9, .thickness_mm = 1, .index = 1.5},
+                             {.radius_mm = -1e9}}));
+    const Tracer tracer(lens, 550);
+    for (double angle = 0; angle < 1.5; angle += 0.1) {
+        const Reflectance r = reflectance(1, 1.5, {}, 550, std::cos(angle));
+        const Reflectance coated =
+            reflectance(1, 1.5, lens.faces()[3].coating, 550, std::cos(angle));
+        const double s = std::pow(1 - r.s, 2) * std::pow(1 - coated.s, 2);
+        const double p = std::pow(1 - r.p, 2) * std::pow(1 - coated.p, 2);
+        const Ray ray = ray_from_light(0, std::tan(angle), 0, 0);
+        EXPECT_NEAR(tracer.throughput({}, ray), 0.5 * (s + p), 1e-6);
+        // Reflected twice inside it.
+        const double ghost = 0.5 * (s * r.s * r.s + p * r.p * r.p);
+        EXPECT_NEAR(tracer.throughput({2, 1}, ray), ghost, 1e-6);
+    }
+}
+
+// No lens and no ray, however wild, makes a number that is none.
+TEST(Trace, NeverNaN) {
+    std::mt19937 random(7);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    int lenses = 0, arrived = 0, ended[4] = {};
+    while (lenses < 300) {
+        std::vector<TestRow> rows;
+        const int count = static_cast<int>(between(2, 9));
+        for (int k = 0; k < count; ++k) {
+            TestRow row{.radius_mm = between(-60, 60), .thickness_mm = between(0, 12)};
+            if (k + 1 < count && between(0, 1) < 0.6) row.index = between(1, 2.2);
+            if (between(0, 1) < 0.2) row.radius_mm = 0;
+            if (between(0, 1) < 0.3) row.conic = between(-4, 3);
+            if (between(0, 1) < 0.3) row.asphere = {between(-1e-4, 1e-4), between(-1e-6, 1e-6)};
+            if (between(0, 1) < 0.2) {
+                row.profile = between(0, 1) < 0.5 ? Profile::kCylinderX : Profile::kCylinderY;
+            }
+            rows.push_back(row);
+        }
+        rows.push_back({.stop = true});
+        std::swap(rows.back(), rows.front());
+        rows.back().index = 1;
+        try {
+            const Lens lens(lens_of(rows, between(2, 16)));
+            ++lenses;
+            const Tracer tracer(lens, between(380, 770));
+            std::vector<Bounces> ways = enumerate_ghosts(lens, GhostSet::kAll);
+            ways.push_back({});
+            for (const Bounces& way : ways) {
+                for (int i = 0; i < 20; ++i) {
+                    const Ray ray = ray_from_light(between(-5, 5), between(-1, 1), between(-60, 60),
+                                                   between(-20, 20));
+                    const TracedRay out = tracer.trace(way, ray);
+                    const double share = tracer.throughput(way, ray);
+                    ASSERT_TRUE(share >= 0 && share <= 1) << share;
+                    for (const double v :
+                         {out.x_mm, out.y_mm, out.stop_x_mm, out.stop_y_mm, out.housing_clip,
+                          out.stop_clip, out.direction[0], out.direction[2]}) {
+                        ASSERT_TRUE(std::isfinite(v));
+                    }
+                    ++ended[static_cast<int>(out.fate)];
+                    if (out.fate != Fate::kArrived) continue;
+                    ++arrived;
+                    ASSERT_NEAR(std::hypot(out.direction[0], out.direction[1], out.direction[2]), 1,
+                                1e-12);
+                }
+            }
+        } catch (const std::exception&) {
+            // Not a lens.
+        }
+    }
+    for (const int count : ended) EXPECT_GT(count, 100);
+    const Lens lens(shipped_lens("heliar"));
+    const Tracer tracer(lens, 550);
+    for (const double bad : {double(NAN), HUGE_VAL, -HUGE_VAL, 1e200}) {
+        for (const Ray& ray : {Ray{{bad, 0, 0}, {0, 0, 1}}, Ray{{0, 0, 0}, {0, bad, 1}},
+                               Ray{{0, 0, bad}, {0, 0, 1}}, ray_from_light(bad, 0, 0, 0)}) {
+            EXPECT_NE(tracer.trace({}, ray).fate, Fate::kArrived);
+            EXPECT_EQ(tracer.throughput({}, ray), 0);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aureole::lens
