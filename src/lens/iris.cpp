@@ -104,8 +104,7 @@ Iris::Iris(const IrisShape& shape) : shape_(shape) {
     // found by iteration: the area is nearly a quadratic function of it.
     double scale = 1;
     for (int i = 0; i < 30; ++i) {
-        const double by =
-            std::sqrt(kPi / area_of(scaled(scale), shape.blades, shape.smoothing));
+        const double by = std::sqrt(kPi / area_of(scaled(scale), shape.blades, shape.smoothing));
         scale *= by;
         if (std::abs(by - 1) < 1e-12) break;
     }
