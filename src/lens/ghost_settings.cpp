@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
 #include <optional>
+#include <sstream>
 
 #include "aureole/base/error.h"
 
