@@ -7,8 +7,8 @@ namespace aureole::lens {
 namespace {
 
 constexpr int kMaxLevels = 8;
-constexpr int kSmallest = 8;       // pixels across the shorter side of the last level
-constexpr int kRowsPerTask = 16;   // of a parallel loop
+constexpr int kSmallest = 8;      // pixels across the shorter side of the last level
+constexpr int kRowsPerTask = 16;  // of a parallel loop
 
 std::size_t tasks_for(int rows) {
     return static_cast<std::size_t>((rows + kRowsPerTask - 1) / kRowsPerTask);

@@ -21,8 +21,8 @@ struct RowSpan {
     int end = 0;
     bool empty() const { return begin >= end; }
     void include(int first, int last) {
-        *this = empty() ? RowSpan{first, last}
-                        : RowSpan{std::min(begin, first), std::max(end, last)};
+        *this =
+            empty() ? RowSpan{first, last} : RowSpan{std::min(begin, first), std::max(end, last)};
     }
 };
 

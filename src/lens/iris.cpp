@@ -104,8 +104,7 @@ Iris::Iris(const IrisShape& shape) : shape_(shape) {
     // found by iteration: the area is nearly a quadratic function of it.
     double scale = 1;
     for (int i = 0; i < 30; ++i) {
-        const double by =
-            std::sqrt(kPi / area_of(scaled(scale), shape.blades, shape.smoothing));
+        const double by = std::sqrt(kPi / area_of(scaled(scale), shape.blades, shape.smoothing));
         scale *= by;
         if (std::abs(by - 1) < 1e-12) break;
     }
@@ -113,8 +112,16 @@ Iris::Iris(const IrisShape& shape) : shape_(shape) {
     apothem_ = edge.apothem;
     blade_radius_ = edge.radius;
     const double half_angle = kPi / shape.blades;
-    outer_radius_ = edge_at(edge, shape.blades, shape.smoothing, 0);
-    inner_radius_ = edge_at(edge, shape.blades, shape.smoothing, half_angle);
+    // Corners are farthest and middles of blades nearest, unless the smooth maximum levels them.
+    outer_radius_ = 0;
+    inner_radius_ = 2 * edge.apothem;
+    constexpr int kAngles = 256;
+    for (int i = 0; i <= kAngles; ++i) {
+        const double radius =
+            edge_at(edge, shape.blades, shape.smoothing, half_angle * i / kAngles);
+        outer_radius_ = std::max(outer_radius_, radius);
+        inner_radius_ = std::min(inner_radius_, radius);
+    }
     for (int b = 0; b < shape.blades; ++b) {
         const double angle = rad_from_deg(shape.rotation_deg) + (2 * b + 1) * half_angle;
         blades_[b] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};

@@ -25,8 +25,7 @@ float bilinear(const Image& image, float x, float y, float outside) {
     const int j = static_cast<int>(floor_y);
     const float fx = x - floor_x;
     const float fy = y - floor_y;
-    const float top =
-        (1 - fx) * texel(image, i, j, outside) + fx * texel(image, i + 1, j, outside);
+    const float top = (1 - fx) * texel(image, i, j, outside) + fx * texel(image, i + 1, j, outside);
     const float bottom =
         (1 - fx) * texel(image, i, j + 1, outside) + fx * texel(image, i + 1, j + 1, outside);
     return (1 - fy) * top + fy * bottom;

@@ -21,8 +21,8 @@ Occluder::Occluder(const ConstImageView& transmission, double diameter_mm)
 float Occluder::transmission(float x_mm, float y_mm, float footprint_mm) const noexcept {
     const auto scale = static_cast<float>(pixels_per_mm_);
     return sample(pyramid_, 0.5F * static_cast<float>(image().width()) + x_mm * scale,
-                  0.5F * static_cast<float>(image().height()) - y_mm * scale,
-                  footprint_mm * scale, 1);
+                  0.5F * static_cast<float>(image().height()) - y_mm * scale, footprint_mm * scale,
+                  1);
 }
 
 }  // namespace aureole::lens

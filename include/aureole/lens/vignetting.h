@@ -18,8 +18,9 @@ struct FieldPoint {
     double relative_illumination = 0;  // irradiance on the sensor over that on the axis
 };
 
-// Exact rays, `rays_per_side`^2 over the front element. Angles in [0, 90).
-// Throws InvalidArgument for angles outside.
+// Exact rays, `rays_per_side`^2 over the front element. Angles in [0, 90),
+// rays_per_side in [8, 4096].
+// Throws InvalidArgument for values outside.
 std::vector<FieldPoint> field_sweep(const Lens& lens, std::span<const double> angles_deg,
                                     double wavelength_nm, int rays_per_side = 201);
 
