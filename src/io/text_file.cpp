@@ -19,6 +19,7 @@ std::string read_text_file(const std::string& path) {
     }
     errno = 0;
     std::ifstream file(path, std::ios::binary);
+    if (!file && errno == ENOENT) throw FileError(path, "there is no such file");
     if (!file) throw FileError(path, std::string("cannot be read: ") + std::strerror(errno));
     // In pieces, since pipes and devices do not tell how long they are.
     std::string text;

@@ -23,7 +23,7 @@ std::string refusal(const std::string& path) {
 
 TEST(TextFile, ComesBackByteForByte) {
     const TemporaryFolder folder;
-    std::string text = "a\r\nb\n\0\xFF";
+    std::string text = "a\r\nb\n\xFF";
     text += std::string(200'000, 'x') + '\0';
     for (const std::string& content : {std::string(), text}) {
         write_text_file(folder.file("a.txt"), content);
@@ -35,7 +35,7 @@ TEST(TextFile, ComesBackByteForByte) {
 
 TEST(TextFile, WhatCannotBeReadIsNamed) {
     const TemporaryFolder folder;
-    EXPECT_THAT(refusal(folder.file("none.txt")), testing::HasSubstr("No such file"));
+    EXPECT_THAT(refusal(folder.file("none.txt")), testing::HasSubstr("there is no such file"));
     std::filesystem::create_directory(folder.file("sub"));
     EXPECT_THAT(refusal(folder.file("sub")), testing::HasSubstr("folder"));
     // As long as it may be, and one byte more; a device without end.
