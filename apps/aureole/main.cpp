@@ -1,4 +1,4 @@
-// aureole: glare, as an eye sees it, on HDR pictures.
+// aureole: glare, as an eye or a camera sees it, on HDR pictures.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -47,15 +47,15 @@ int wrong_usage(const CLI::App& app, const std::string& message) {
 
 int run(int argc, char** argv) {
     CLI::App app(
-        "Physically-based glare on linear HDR pictures.\n"
+        "Physically-based glare and lens flares on linear HDR pictures.\n"
         "`aureole COMMAND --help` describes a command.",
         "aureole");
     app.set_version_flag("--version", "aureole " AUREOLE_VERSION);
     app.require_subcommand(0, 1);
 
     using namespace aureole::app;
-    std::vector<Run> commands = {add_glare_command(app), add_psf_command(app),
-                                 add_scene_command(app)};
+    std::vector<Run> commands = {add_glare_command(app), add_flare_command(app),
+                                 add_psf_command(app), add_scene_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -61,10 +61,11 @@ std::vector<std::string_view> words_in(std::string_view line) {
     while (true) {
         while (at < line.size() && blank(line[at])) ++at;
         if (at == line.size()) return words;
-        const bool quoted = line[at] == '"';
+        const char quote = line[at];
+        const bool quoted = quote == '"' || quote == '\'';
         const std::size_t start = quoted ? at + 1 : at;
         at = start;
-        while (at < line.size() && (quoted ? line[at] != '"' : !blank(line[at]))) ++at;
+        while (at < line.size() && (quoted ? line[at] != quote : !blank(line[at]))) ++at;
         words.push_back(line.substr(start, at - start));
         if (quoted && at < line.size()) ++at;
     }

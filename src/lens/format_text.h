@@ -33,7 +33,7 @@ std::optional<double> number_in(std::string_view text);
 // Throws FileError if it is no number or not finite.
 double finite_number(std::string_view text, std::string_view what, const Place& place);
 
-// Words between blanks (space, tab); "..." is one word, without its quotes.
+// Words between blanks (space, tab); "..." and '...' are one word, without the quotes.
 std::vector<std::string_view> words_in(std::string_view line);
 std::string_view trimmed(std::string_view text);
 std::string upper_case(std::string_view text);
