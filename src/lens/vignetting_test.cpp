@@ -117,6 +117,20 @@ TEST(Vignetting, StoppingDownRemovesIt) {
     EXPECT_LT(area(2), area(2.8));
 }
 
+// Stopped down so far that the beam is narrower than the first rays lie apart: the ratio stays.
+TEST(Vignetting, NarrowBeamsAreFound) {
+    const double angles[] = {7, 13, 21};
+    const auto at = [&](double f_number) {
+        return field_sweep(Lens(shipped_lens("nikon-28-75"), {.f_number = f_number}), angles, 550);
+    };
+    const auto wide = at(22);
+    const auto narrow = at(350);
+    for (std::size_t i = 0; i < std::size(angles); ++i) {
+        EXPECT_NEAR(narrow[i].relative_area, wide[i].relative_area, 0.01);
+        EXPECT_NEAR(narrow[i].relative_illumination, wide[i].relative_illumination, 0.02);
+    }
+}
+
 TEST(Vignetting, WhatNoLightReachesIsDark) {
     const Lens lens(shipped_lens("heliar"));
     const double angles[] = {70, 89.9};
