@@ -148,9 +148,7 @@ std::optional<Point> image_through(const Tracer& tracer, const Direction& light,
                                    const Point& stop) {
     constexpr double kNudgeMm = 1e-4;
     constexpr int kIterations = 8;
-    const auto at = [&](double x, double y) {
-        return tracer.trace(Bounces{}, light.ray(x, y));
-    };
+    const auto at = [&](double x, double y) { return tracer.trace(Bounces{}, light.ray(x, y)); };
     for (int i = 0;; ++i) {
         const TracedRay ray = at(start[0], start[1]);
         if (ray.fate != Fate::kArrived) return std::nullopt;
