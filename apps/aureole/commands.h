@@ -10,6 +10,7 @@ namespace aureole::app {
 using Run = std::function<void()>;
 
 Run add_glare_command(CLI::App& app);
+Run add_flare_command(CLI::App& app);
 Run add_lens_command(CLI::App& app);
 Run add_psf_command(CLI::App& app);
 Run add_scene_command(CLI::App& app);

@@ -7,13 +7,24 @@
 #include "option_checks.h"
 
 namespace aureole::app {
+
 void EyeOptions::add_options(CLI::App& command) {
-    CLI::Option_group& group = *command.add_option_group("The eye");
-    one_of(group.add_option("--preset", preset_,
-                            "physical: as measured; vivid: what people say they see (corona "
-                            "contrast 2.5 to 4, streaks x1.5)"),
+    group_ = command.add_option_group("The eye");
+    one_of(group_->add_option("--preset", preset_,
+                              "physical: as measured; vivid: what people say they see (corona "
+                              "contrast 2.5 to 4, streaks x1.5)"),
            {"physical", "vivid"})
         ->capture_default_str();
+    add_options_to_group();
+}
+
+void EyeOptions::add_options_but_preset(CLI::App& command) {
+    group_ = command.add_option_group("The eye");
+    add_options_to_group();
+}
+
+void EyeOptions::add_options_to_group() {
+    CLI::Option_group& group = *group_;
     number(group.add_option("--age", age_years_, "Years; older eyes scatter more"))
         ->type_name("YEARS")
         ->capture_default_str();
@@ -55,15 +66,9 @@ void EyeOptions::add_options(CLI::App& command) {
     seed_number(group.add_option("--seed", seed_, "Another seed is another eye"))
         ->type_name("N")
         ->capture_default_str();
-    group_ = &group;
 }
 
-std::string EyeOptions::first_given() const {
-    for (const CLI::Option* option : group_->get_options()) {
-        if (option->count() > 0) return option->get_name();
-    }
-    return "";
-}
+std::string EyeOptions::first_given() const { return app::first_given(*group_); }
 
 void EyeOptions::check() const {
     constexpr double kAnyLuminance = 1;

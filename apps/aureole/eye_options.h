@@ -14,7 +14,11 @@ namespace aureole::app {
 
 class EyeOptions {
   public:
+    // --preset and the others.
     void add_options(CLI::App& command);
+    // The others, for commands whose --preset knows further words.
+    void add_options_but_preset(CLI::App& command);
+    void set_preset(const std::string& word) { preset_ = word; }
 
     // Throws InvalidArgument for an eye that cannot be, before any picture is read.
     void check() const;
@@ -29,9 +33,10 @@ class EyeOptions {
     nlohmann::ordered_json report(const eye::Eye& eye, double metered_cd_m2) const;
 
   private:
+    void add_options_to_group();
     double adaptation_cd_m2(double metered_cd_m2) const;
 
-    const CLI::Option_group* group_ = nullptr;
+    CLI::Option_group* group_ = nullptr;
     std::string preset_ = "physical";
     double age_years_ = 30;
     std::string pigmentation_ = "brown";

@@ -1,21 +1,39 @@
 // aureole glare: glare on pictures and sequences.
 #include <memory>
 
+#include "aureole/base/error.h"
+#include "camera_observer.h"
 #include "commands.h"
+#include "eye_observer.h"
 #include "frame_files.h"
-#include "glare_job.h"
+#include "option_checks.h"
+#include "picture_job.h"
 
 namespace aureole::app {
 namespace {
 
+constexpr const char* kFallbackLens = "heliar";
+
 struct GlareCommand {
     void add_options(CLI::App& command);
     void run();
+    void check();
+    std::unique_ptr<Observer> observer();
 
     Session session;
-    GlareSettings settings;
+    PictureSettings settings;
+    SpreadSettings spread;
+    ViewOptions view;
+    EyeOptions eye;
+    CameraOptions camera;
+    GhostOptions ghosts;
+    LightOptions lights;
     std::vector<std::string> inputs;
     std::string frames;
+    std::string observer_name = "eye";
+    std::string preset = "physical";
+    CLI::Option* preset_option = nullptr;
+    std::string psf_file;
 };
 
 void GlareCommand::add_options(CLI::App& command) {
@@ -31,8 +49,74 @@ void GlareCommand::add_options(CLI::App& command) {
                                 "repeated");
     command.add_option("--frames", frames, "Frames of a sequence: 1001-1240, 1-10x2, 1,5,9")
         ->type_name("RANGE");
-    settings.add_options(command);
+    one_of(command.add_option("--observer", observer_name,
+                              "eye: scatter and diffraction in an eye; camera: the starburst of an "
+                              "iris, and the ghosts of a lens"),
+           {"eye", "camera"})
+        ->capture_default_str();
+    preset_option =
+        one_of(command.add_option("--preset", preset,
+                                  "physical: as measured; vivid (eye): what people say they see "
+                                  "(corona contrast 2.5 to 4, streaks x1.5); blog (camera): ghosts "
+                                  "without absolute scale, as artists draw them"),
+               {"physical", "vivid", "blog"});
+    preset_option->capture_default_str();
+    view.add_options(command, "60, or the lens's for a camera");
+    view.add_white_luminance_option(command);
+    CLI::Option_group& group = *command.add_option_group("Applying it");
+    group
+        .add_option("--psf", psf_file,
+                    "Use this kernel (EXR of `aureole psf`, or any odd-sized picture) instead of "
+                    "an eye's")
+        ->type_name("FILE");
+    spread.add_options(group);
+    settings.add_options(group, command);
+    eye.add_options_but_preset(command);
+    camera.add_options(command, kFallbackLens);
+    lights.add_options(command);
+    ghosts.add_options(command);
     session.add_options(command);
+}
+
+void GlareCommand::check() {
+    const auto refuse = [](const std::string& option, const std::string& why) {
+        if (!option.empty()) throw InvalidArgument(option + ": " + why);
+    };
+    view.check();
+    if (observer_name == "camera") {
+        refuse(eye.first_given(), "is an option of the eye: leave it out with --observer camera");
+        refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
+        refuse(view.white_luminance_given() ? "--white-luminance" : "",
+               "matters for the eye's pupil only: leave it out with --observer camera");
+        refuse(preset == "vivid" ? "--preset vivid" : "", "needs --observer eye");
+        ghosts.set_preset(preset);
+        ghosts.check();
+        lights.check();
+        return;
+    }
+    for (const std::string& option :
+         {camera.first_given(), lights.first_given(), ghosts.first_given()}) {
+        refuse(option, "is an option of the camera: needs --observer camera");
+    }
+    refuse(preset == "blog" ? "--preset blog" : "", "needs --observer camera");
+    eye.set_preset(preset);
+    eye.check();
+    if (psf_file.empty()) return;
+    const std::string option =
+        preset_option->count() > 0 ? preset_option->get_name() : eye.first_given();
+    if (!option.empty()) {
+        throw InvalidArgument("--psf", psf_file, "replaces the eye: leave out " + option);
+    }
+}
+
+std::unique_ptr<Observer> GlareCommand::observer() {
+    if (observer_name == "camera") {
+        constexpr bool kStarburst = true;
+        return std::make_unique<CameraObserver>(camera, ghosts, lights, view, kStarburst, session);
+    }
+    if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
+    const Metering metering = frames.empty() ? Metering::kEachPicture : Metering::kFirst;
+    return std::make_unique<EyeObserver>(eye, view, metering, session);
 }
 
 void GlareCommand::run() {
@@ -40,21 +124,19 @@ void GlareCommand::run() {
     const std::vector<FrameFiles> list =
         frame_files(inputs, settings.output.paths(), settings.side_by_side_file, frames);
     settings.prepare(list);
-    GlareJob job(settings, session, frames.empty() ? Metering::kEachPicture : Metering::kFirst);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        session.check_interrupt();
-        job.process(list[i]);
-        if (list.size() > 1) {
-            session.report("frames", static_cast<double>(i + 1) / static_cast<double>(list.size()));
-        }
-    }
+    check();
+    ghosts.check_pictures(list.size());
+    const std::unique_ptr<Observer> who = observer();
+    PictureJob job(settings, spread, *who, session);
+    job.process(list);
     session.finish(job.report());
 }
 
 }  // namespace
 
 Run add_glare_command(CLI::App& app) {
-    CLI::App& command = *app.add_subcommand("glare", "Add the glare of an eye to HDR pictures");
+    CLI::App& command =
+        *app.add_subcommand("glare", "Add the glare of an eye or a camera to HDR pictures");
     const auto state = std::make_shared<GlareCommand>();
     state->add_options(command);
     return [state] { state->run(); };

@@ -95,4 +95,26 @@ std::optional<double> given_number(const std::string& text) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+std::optional<std::vector<double>> given_numbers(const std::string& text, char separator) {
+    std::vector<double> numbers;
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find(separator, start), text.size());
+        const std::optional<double> value = given_number(text.substr(start, end - start));
+        if (!value) return std::nullopt;
+        numbers.push_back(*value);
+        start = end + 1;
+    }
+    return numbers;
+}
+
+std::string first_given(const CLI::App& group) {
+    for (const CLI::Option* option : group.get_options()) {
+        if (option->count() > 0) return option->get_name();
+    }
+    for (const CLI::App* inner : group.get_subcommands([](const CLI::App*) { return true; })) {
+        if (std::string name = first_given(*inner); !name.empty()) return name;
+    }
+    return "";
+}
+
 }  // namespace aureole::app

@@ -25,27 +25,14 @@ std::string lower_extension(const std::string& path) {
     return extension;
 }
 
-void check_folder(const std::string& path) {
-    fs::path folder = fs::path(path).parent_path();
-    if (folder.empty()) folder = ".";
-    std::error_code ignored;
-    if (!fs::is_directory(folder, ignored)) {
-        throw FileError(path, "cannot be written: there is no folder " + folder.string());
-    }
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-        throw FileError(
-            path, "cannot be written in folder " + folder.string() + ": " + std::strerror(errno));
-    }
-}
-
 }  // namespace
 
 void OutputOptions::add_options(CLI::App& command, const std::string& description) {
-    command.add_option("-o,--output", paths_, description)
-        ->required()
-        ->type_name("FILE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    option_ = command.add_option("-o,--output", paths_, description)
+                  ->required()
+                  ->type_name("FILE")
+                  ->expected(1)
+                  ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     one_of(command.add_option("--depth", depth_,
                               "Of EXR colour channels; half loses the wings of glare"),
            {"float", "half"})
@@ -77,6 +64,19 @@ void check_outputs(const std::vector<std::string>& files) {
         if (!seen.insert(fs::absolute(file).lexically_normal()).second) {
             throw InvalidArgument("output file", file, "would be written more than once");
         }
+    }
+}
+
+void check_folder(const std::string& path) {
+    fs::path folder = fs::path(path).parent_path();
+    if (folder.empty()) folder = ".";
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored)) {
+        throw FileError(path, "cannot be written: there is no folder " + folder.string());
+    }
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+        throw FileError(
+            path, "cannot be written in folder " + folder.string() + ": " + std::strerror(errno));
     }
 }
 

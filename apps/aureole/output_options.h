@@ -14,8 +14,10 @@ namespace aureole::app {
 class OutputOptions {
   public:
     void add_options(CLI::App& command, const std::string& description);
+    // For commands that have something else to do: -o may then be missing.
+    void make_optional() { option_->required(false); }
 
-    // As given on the command line; not empty.
+    // As given on the command line.
     const std::vector<std::string>& paths() const { return paths_; }
     const std::string& depth() const { return depth_; }
 
@@ -25,6 +27,7 @@ class OutputOptions {
     void write(const std::string& path, const io::Picture& picture, Session& session) const;
 
   private:
+    CLI::Option* option_ = nullptr;
     std::vector<std::string> paths_;
     std::string depth_ = "float";
 };
@@ -32,6 +35,8 @@ class OutputOptions {
 // What can be found out before the work is done. Throws InvalidArgument for an unknown extension
 // and for a file that would be written twice, FileError for a folder that is missing or closed.
 void check_outputs(const std::vector<std::string>& files);
+// Throws FileError unless files can be made in the folder that `path` is in.
+void check_folder(const std::string& path);
 
 // Whether a file holds display values (PNG, JPEG) and not linear ones, by its extension.
 bool is_display_file(const std::string& path);

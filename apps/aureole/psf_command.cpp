@@ -1,4 +1,4 @@
-// aureole psf: the point spread function of an eye, as a kernel for any tool.
+// aureole psf: the point spread function of an eye or a camera, as a kernel for any tool.
 #include <fmt/core.h>
 
 #include <map>
@@ -9,6 +9,8 @@
 #include "aureole/eye/eye_psf.h"
 #include "aureole/eye/joint_psf.h"
 #include "aureole/io/picture.h"
+#include "aureole/lens/starburst.h"
+#include "camera_options.h"
 #include "commands.h"
 #include "eye_options.h"
 #include "kernel_file.h"
@@ -22,20 +24,28 @@ namespace {
 
 // A lit room in the evening, or a street at dusk.
 constexpr double kDefaultAdaptation = 10;  // cd/m2
+constexpr const char* kFallbackLens = "heliar";
 
 struct PsfCommand {
     void add_options(CLI::App& command);
     void run();
+    void check();
     wave::Psf compute(const eye::Eye& eye, const wave::KernelGrid& grid);
+    // Each makes the PSF of one observer, and says in "parameters" whose it is.
+    wave::Psf of_eye(const View& view);
+    wave::Psf of_camera(const Camera& seen_by, const View& view);
 
     Session session;
     ViewOptions view_options;
     EyeOptions eye_options;
+    CameraOptions camera_options;
+    std::string observer = "eye";
     OutputOptions output;
     int width = 1920;
     std::optional<int> height;
     int size = 1025;
     std::string component = "all";
+    CLI::Option* component_option = nullptr;
 };
 
 void PsfCommand::add_options(CLI::App& command) {
@@ -55,14 +65,21 @@ void PsfCommand::add_options(CLI::App& command) {
                  (1 << 14) - 1)
         ->type_name("PIXELS")
         ->capture_default_str();
-    one_of(command.add_option("--component", component,
-                              "One part alone, with energy 1: bloom (the pupil's Airy pattern), "
-                              "corona, halo, streaks; joint: diffraction of all in one mask, as "
-                              "the thesis does it"),
-           {"all", "bloom", "corona", "halo", "streaks", "joint"})
+    one_of(command.add_option("--observer", observer,
+                              "eye; camera: the starburst of an iris (ghosts are no part of a "
+                              "PSF: `aureole flare`)"),
+           {"eye", "camera"})
         ->capture_default_str();
-    view_options.add_options(command);
+    component_option =
+        one_of(command.add_option("--component", component,
+                                  "One part of the eye's alone, with energy 1: bloom (the pupil's "
+                                  "Airy pattern), corona, halo, streaks; joint: diffraction of all "
+                                  "in one mask, as the thesis does it"),
+               {"all", "bloom", "corona", "halo", "streaks", "joint"});
+    component_option->capture_default_str();
+    view_options.add_options(command, "60, or the lens's for a camera");
     eye_options.add_options(command);
+    camera_options.add_options(command, kFallbackLens);
     session.add_options(command);
 }
 
@@ -77,23 +94,64 @@ wave::Psf PsfCommand::compute(const eye::Eye& eye, const wave::KernelGrid& grid)
     return eye::eye_component(components.at(component), eye, grid, {}, &session);
 }
 
-void PsfCommand::run() {
-    session.start();
+void PsfCommand::check() {
     check_outputs(output.paths());
     output.check_depth(output.paths());
     if (size % 2 == 0) {
         throw InvalidArgument("--size", fmt::format("{}", size),
                               "must be odd: the source is in the middle of a pixel");
     }
-    const View view = view_options.view_of_size(width, height.value_or((width * 9 + 8) / 16));
+    if (observer == "camera") {
+        const std::string option = component_option->count() > 0 ? component_option->get_name()
+                                                                 : eye_options.first_given();
+        if (!option.empty()) {
+            throw InvalidArgument(option +
+                                  ": is an option of the eye: leave it out with --observer camera");
+        }
+    } else if (const std::string option = camera_options.first_given(); !option.empty()) {
+        throw InvalidArgument(option + ": is an option of the camera: needs --observer camera");
+    }
+}
+
+wave::Psf PsfCommand::of_eye(const View& view) {
     const eye::Eye eye = eye_options.eye(kDefaultAdaptation, view);
     if (eye_options.needs_adaptation()) {
         session.note(
             fmt::format("no adaptation luminance: assuming {} cd/m2 (--adaptation, --pupil)",
                         kDefaultAdaptation));
     }
-    const wave::KernelGrid grid = wave::KernelGrid::square(view, size);
-    const wave::Psf psf = session.timed("psf", [&] { return compute(eye, grid); });
+    auto& parameters = session.json()["parameters"];
+    parameters = eye_options.report(eye, kDefaultAdaptation);
+    parameters["component"] = component;
+    return session.timed("psf", [&] { return compute(eye, wave::KernelGrid::square(view, size)); });
+}
+
+wave::Psf PsfCommand::of_camera(const Camera& seen_by, const View& view) {
+    auto& parameters = session.json()["parameters"];
+    parameters = camera_options.report(seen_by);
+    parameters["lens_fov_deg"] = seen_by.field_deg(view.width, view.height);
+    return session.timed("psf", [&] {
+        return lens::starburst_psf(seen_by.iris, seen_by.entrance_pupil_mm(),
+                                   wave::KernelGrid::square(view, size), {}, seen_by.dirt(),
+                                   &session);
+    });
+}
+
+void PsfCommand::run() {
+    session.start();
+    check();
+    session.json()["outputs"] = output.paths();
+    const int rows = height.value_or((width * 9 + 8) / 16);
+    View view;
+    wave::Psf psf;
+    if (observer == "camera") {
+        const Camera camera = camera_options.camera(session);
+        view = view_options.view_of_size(width, rows, camera.field_deg(width, rows));
+        psf = of_camera(camera, view);
+    } else {
+        view = view_options.view_of_size(width, rows);
+        psf = of_eye(view);
+    }
     session.check_interrupt();
     session.timed("write", [&] {
         for (const std::string& path : output.paths()) {
@@ -105,16 +163,14 @@ void PsfCommand::run() {
         }
     });
     auto& json = session.json();
-    json["outputs"] = output.paths();
     json["energy"] = {{"off_kernel", psf.off_kernel_energy}};
-    json["parameters"] = eye_options.report(eye, kDefaultAdaptation);
-    json["parameters"].update({{"component", component},
+    json["parameters"].update({{"observer", observer},
                                {"width", view.width},
                                {"height", view.height},
                                {"fov_deg", view.horizontal_field_deg()},
-                               {"perspective", grid.projection == Projection::kPerspective},
+                               {"perspective", psf.grid.projection == Projection::kPerspective},
                                {"size", size},
-                               {"pitch_deg", grid.pitch_deg},
+                               {"pitch_deg", psf.grid.pitch_deg},
                                {"depth", output.depth()},
                                {"threads", thread_count()}});
     std::string summary;
@@ -125,8 +181,8 @@ void PsfCommand::run() {
 }  // namespace
 
 Run add_psf_command(CLI::App& app) {
-    CLI::App& command =
-        *app.add_subcommand("psf", "Write the point spread function of an eye as a kernel");
+    CLI::App& command = *app.add_subcommand(
+        "psf", "Write the point spread function of an eye or a camera as a kernel");
     const auto state = std::make_shared<PsfCommand>();
     state->add_options(command);
     return [state] { state->run(); };

@@ -5,22 +5,21 @@
 #include <cmath>
 
 #include "aureole/base/error.h"
-#include "aureole/io/field_of_view.h"
 #include "option_checks.h"
 
 namespace aureole::app {
 namespace {
 
-constexpr double kDefaultFovDeg = 60;
 constexpr float kDefaultWhiteLuminance = 100;
 constexpr double kPerspectiveFromDeg = 40;
 
 }  // namespace
 
-void ViewOptions::add_options(CLI::App& command) {
+void ViewOptions::add_options(CLI::App& command, const std::string& otherwise) {
     number(command.add_option("--fov", fov_deg_,
                               "Horizontal field of view of the picture in degrees (default: from "
-                              "the picture's metadata, else 60)"))
+                              "the picture's metadata, else " +
+                                  otherwise + ")"))
         ->type_name("DEG");
     one_of(command.add_option("--perspective", perspective_,
                               "on: pixels of a rectilinear camera; off: equal angles and plain "
@@ -55,30 +54,37 @@ void ViewOptions::check() const {
     if (fov_deg_) projection_for(*fov_deg_, "--fov");
 }
 
-View ViewOptions::view_of(const io::Picture& picture, Session& session) const {
-    double fov_deg = kDefaultFovDeg;
-    std::string source = "--fov";
-    if (fov_deg_) {
-        fov_deg = *fov_deg_;
-    } else if (const auto from_file = io::field_of_view(picture)) {
-        fov_deg = from_file->deg;
-        source = "field of view in the picture's attribute " + from_file->source;
-    } else {
-        session.note(
-            fmt::format("no field of view given or in the picture: assuming {} deg "
-                        "(--fov)",
-                        kDefaultFovDeg));
-    }
+std::optional<io::FieldOfView> ViewOptions::known_field(const io::Picture& picture) const {
+    if (fov_deg_) return io::FieldOfView{*fov_deg_, "--fov"};
+    std::optional<io::FieldOfView> field = io::field_of_view(picture);
+    if (field) field->source = "field of view in the picture's attribute " + field->source;
+    return field;
+}
+
+View ViewOptions::view_with(const io::FieldOfView& field, const io::Picture& picture,
+                            Session& session) const {
     if (picture.pixel_aspect_ratio() != 1) {
         session.note(fmt::format("pixel aspect ratio {}: pixels are treated as square",
                                  picture.pixel_aspect_ratio()));
     }
     const io::Window& display = picture.display_window();
-    return View::from_fov(display.width, display.height, fov_deg, projection_for(fov_deg, source));
+    return View::from_fov(display.width, display.height, field.deg,
+                          projection_for(field.deg, field.source));
 }
 
-View ViewOptions::view_of_size(int width, int height) const {
-    const double fov_deg = fov_deg_.value_or(kDefaultFovDeg);
+View ViewOptions::view_of(const io::Picture& picture, Session& session) const {
+    const std::optional<io::FieldOfView> known = known_field(picture);
+    if (!known) {
+        session.note(
+            fmt::format("no field of view given or in the picture: assuming {} deg "
+                        "(--fov)",
+                        kDefaultFovDeg));
+    }
+    return view_with(known.value_or(io::FieldOfView{kDefaultFovDeg, "--fov"}), picture, session);
+}
+
+View ViewOptions::view_of_size(int width, int height, double otherwise_deg) const {
+    const double fov_deg = fov_deg_.value_or(otherwise_deg);
     return View::from_fov(width, height, fov_deg, projection_for(fov_deg, "--fov"));
 }
 

@@ -112,8 +112,16 @@ Iris::Iris(const IrisShape& shape) : shape_(shape) {
     apothem_ = edge.apothem;
     blade_radius_ = edge.radius;
     const double half_angle = kPi / shape.blades;
-    outer_radius_ = edge_at(edge, shape.blades, shape.smoothing, 0);
-    inner_radius_ = edge_at(edge, shape.blades, shape.smoothing, half_angle);
+    // Corners are farthest and middles of blades nearest, unless the smooth maximum levels them.
+    outer_radius_ = 0;
+    inner_radius_ = 2 * edge.apothem;
+    constexpr int kAngles = 256;
+    for (int i = 0; i <= kAngles; ++i) {
+        const double radius =
+            edge_at(edge, shape.blades, shape.smoothing, half_angle * i / kAngles);
+        outer_radius_ = std::max(outer_radius_, radius);
+        inner_radius_ = std::min(inner_radius_, radius);
+    }
     for (int b = 0; b < shape.blades; ++b) {
         const double angle = rad_from_deg(shape.rotation_deg) + (2 * b + 1) * half_angle;
         blades_[b] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};

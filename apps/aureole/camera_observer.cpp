@@ -1,0 +1,97 @@
+#include "camera_observer.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "aureole/base/units.h"
+#include "aureole/lens/starburst.h"
+
+namespace aureole::app {
+namespace {
+
+constexpr double kSameField = 0.02;  // relative difference that is not worth a word
+
+}  // namespace
+
+CameraObserver::CameraObserver(const CameraOptions& camera, const GhostOptions& ghosts,
+                               const LightOptions& lights, const ViewOptions& view, bool starburst,
+                               Session& session)
+    : camera_options_(camera),
+      ghost_options_(ghosts),
+      light_options_(lights),
+      view_options_(view),
+      starburst_(starburst),
+      session_(session),
+      camera_(camera.camera(session)),
+      flare_options_(ghosts.options(camera_.lens)) {}
+
+View CameraObserver::view_of(const io::Picture& picture) {
+    const io::Window& window = picture.display_window();
+    const double used_mm = camera_.used_width_mm(window.width, window.height);
+    lens_field_deg_ = camera_.field_deg(window.width, window.height);
+    const std::string lens =
+        fmt::format("{:.4g} mm on {:.4g} mm of sensor", camera_.lens.efl_mm(), used_mm);
+    const std::optional<io::FieldOfView> known = view_options_.known_field(picture);
+    if (!known) {
+        session_.note(
+            fmt::format("no field of view given or in the picture: using that of the "
+                        "lens, {:.4g} deg ({}; --fov)",
+                        lens_field_deg_, lens));
+        return view_options_.view_with({lens_field_deg_, "field of view of the lens"}, picture,
+                                       session_);
+    }
+    const View view = view_options_.view_with(*known, picture, session_);
+    if (std::abs(known->deg / lens_field_deg_ - 1) > kSameField) {
+        const double pictured_mm = camera_.lens.efl_mm() / view.focal_length_px() * window.width;
+        session_.note(fmt::format(
+            "{} = {:.4g} deg wins over the lens's {:.4g} deg ({}): the "
+            "picture shows {:.4g} mm of its image, {:.3g} times the sensor",
+            known->source, known->deg, lens_field_deg_, lens, pictured_mm, pictured_mm / used_mm));
+    }
+    return view;
+}
+
+std::optional<wave::Psf> CameraObserver::psf(const View& /*display*/, const View& data) {
+    if (!starburst_) return std::nullopt;
+    return lens::starburst_psf(camera_.iris, camera_.entrance_pupil_mm(),
+                               wave::KernelGrid::full_reach(data), {}, camera_.dirt(), &session_);
+}
+
+void CameraObserver::plan(const View& data) {
+    flare_.emplace(camera_.lens, camera_.iris, data, flare_options_, camera_.dirt());
+    ghosts_ = Image(data.width, data.height, 3);
+}
+
+const Image* CameraObserver::ghosts(const io::Picture& picture, const View& display,
+                                    const View& data, const float* matte) {
+    display_ = display;
+    session_.timed("lights", [&] {
+        lights_ = light_options_.lights(picture, display, data, matte, session_);
+    });
+    session_.check_interrupt();
+    session_.timed("ghosts", [&] {
+        for (int c = 0; c < 3; ++c) std::fill_n(ghosts_.plane(c), ghosts_.pixels(), 0.0F);
+        flare_->render(lights_.lights, ghosts_);
+    });
+    if (!ghost_options_.dump_file().empty()) {
+        ghost_options_.dump(camera_options_.lens_name(), camera_.lens, flare_options_,
+                            flare_->report());
+    }
+    return &ghosts_;
+}
+
+void CameraObserver::report(nlohmann::ordered_json& json) const {
+    auto& parameters = json["parameters"];
+    parameters.update(camera_options_.report(camera_));
+    parameters["lens_fov_deg"] = lens_field_deg_;
+    parameters["starburst"] = starburst_;
+    parameters.update(ghost_options_.report(flare_options_));
+    parameters.update(light_options_.report());
+    if (lights_.searched) parameters["light_threshold"] = lights_.search.threshold;
+    json["lights"] = report_of(lights_, display_);
+    json["ghosts"] = report_of(flare_->report());
+}
+
+}  // namespace aureole::app

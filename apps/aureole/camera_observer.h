@@ -1,0 +1,48 @@
+// A camera as an observer: the starburst of its iris spreads light, its lens adds ghosts.
+#pragma once
+
+#include <optional>
+
+#include "aureole/lens/flare.h"
+#include "camera_options.h"
+#include "ghost_options.h"
+#include "light_options.h"
+#include "observer.h"
+#include "session.h"
+#include "view_options.h"
+
+namespace aureole::app {
+
+class CameraObserver : public Observer {
+  public:
+    // Loads lens, iris and all other files of the options: throws InvalidArgument, FileError.
+    CameraObserver(const CameraOptions& camera, const GhostOptions& ghosts,
+                   const LightOptions& lights, const ViewOptions& view, bool starburst,
+                   Session& session);
+
+    View view_of(const io::Picture& picture) override;
+    std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    void plan(const View& data) override;
+    // Writes --dump-ghosts too.
+    const Image* ghosts(const io::Picture& picture, const View& display, const View& data,
+                        const float* matte) override;
+    void report(nlohmann::ordered_json& json) const override;
+
+  private:
+    const CameraOptions& camera_options_;
+    const GhostOptions& ghost_options_;
+    const LightOptions& light_options_;
+    const ViewOptions& view_options_;
+    bool starburst_;
+    Session& session_;
+    Camera camera_;
+    lens::FlareOptions flare_options_;
+    std::optional<lens::Flare> flare_;
+    Image ghosts_;
+    // Of the last picture, for the report.
+    PictureLights lights_;
+    View display_;
+    double lens_field_deg_ = 0;
+};
+
+}  // namespace aureole::app

@@ -1,0 +1,59 @@
+// Eyes, and kernels in files, as observers.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "aureole/eye/anatomy.h"
+#include "eye_options.h"
+#include "observer.h"
+#include "session.h"
+#include "view_options.h"
+
+namespace aureole::app {
+
+// Which pictures the eye adapts to if the options do not say.
+enum class Metering {
+    kEachPicture,  // pictures that have nothing to do with each other
+    kFirst,        // a sequence keeps the eye of its first picture
+};
+
+class EyeObserver : public Observer {
+  public:
+    EyeObserver(const EyeOptions& eye, const ViewOptions& view, Metering metering, Session& session)
+        : options_(eye), view_(view), metering_(metering), session_(session) {}
+
+    View view_of(const io::Picture& picture) override { return view_.view_of(picture, session_); }
+    bool adapt(const io::Picture& picture) override;
+    std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    void report(nlohmann::ordered_json& json) const override;
+
+  private:
+    double metered_cd_m2(const io::Picture& picture) const;
+
+    const EyeOptions& options_;
+    const ViewOptions& view_;
+    Metering metering_;
+    Session& session_;
+    std::optional<double> metered_cd_m2_;
+    double white_luminance_cd_m2_ = 0;
+    eye::Eye eye_;
+};
+
+class KernelObserver : public Observer {
+  public:
+    KernelObserver(std::string file, const ViewOptions& view, Session& session)
+        : file_(std::move(file)), view_(view), session_(session) {}
+
+    View view_of(const io::Picture& picture) override;
+    std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    void report(nlohmann::ordered_json& json) const override;
+
+  private:
+    std::string file_;
+    const ViewOptions& view_;
+    Session& session_;
+    double white_luminance_cd_m2_ = 0;
+};
+
+}  // namespace aureole::app

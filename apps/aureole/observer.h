@@ -1,0 +1,39 @@
+// Who looks at a picture: an eye, a camera, or a kernel that somebody else made.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "aureole/image/image.h"
+#include "aureole/image/view.h"
+#include "aureole/io/picture.h"
+#include "aureole/wave/psf.h"
+
+namespace aureole::app {
+
+// Made for one run; then asked for each picture in the order of these functions.
+class Observer {
+  public:
+    virtual ~Observer() = default;
+
+    // How the display window of a picture sees the world.
+    virtual View view_of(const io::Picture& picture) = 0;
+    // Gets used to the picture; false if the PSF made before does not serve for it.
+    virtual bool adapt(const io::Picture& /*picture*/) { return true; }
+    // How light spreads in pictures whose display window is seen as `display` and data window as
+    // `data`; nothing if it does not. Asked again when the views change or adapt() says so.
+    virtual std::optional<wave::Psf> psf(const View& display, const View& data) = 0;
+    // Gets ready for ghosts() in pictures whose data window is seen as `data`.
+    virtual void plan(const View& /*data*/) {}
+    // The light that does not spread but comes by other ways, to be added to the picture: 3
+    // channels over the data window, valid until the next call. nullptr: none. `matte`: a factor
+    // for each pixel of the picture, or nullptr.
+    virtual const Image* ghosts(const io::Picture& /*picture*/, const View& /*display*/,
+                                const View& /*data*/, const float* /*matte*/) {
+        return nullptr;
+    }
+    // Every value in force goes to "parameters"; what else is to be told, beside it.
+    virtual void report(nlohmann::ordered_json& json) const = 0;
+};
+
+}  // namespace aureole::app

@@ -1,0 +1,270 @@
+#include "picture_job.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "aureole/base/error.h"
+#include "aureole/base/parallel.h"
+#include "aureole/image/finite.h"
+#include "layers.h"
+#include "option_checks.h"
+#include "view_options.h"
+
+namespace aureole::app {
+namespace {
+
+bool same_view(const View& a, const View& b) {
+    return a.width == b.width && a.height == b.height && a.projection == b.projection &&
+           a.pitch_deg == b.pitch_deg && a.axis_x == b.axis_x && a.axis_y == b.axis_y;
+}
+
+}  // namespace
+
+void PictureSettings::add_options(CLI::App& group, CLI::App& command) {
+    layers_option = one_of(
+        group.add_option("--output-layers", layers,
+                         "composite: the picture with glare; glare: what was added and taken away "
+                         "(sums with the input to the composite); both: EXR layers"),
+        {"composite", "glare", "both"});
+    layers_option->capture_default_str();
+    group
+        .add_option("--matte", matte_file,
+                    "Picture of the same size: only where it is 1 (its first channel) do pixels "
+                    "make glare")
+        ->type_name("FILE");
+    group
+        .add_option("--side-by-side", side_by_side_file,
+                    "Also write a PNG or JPEG: the picture without glare, and with it; a numbered "
+                    "name for a sequence")
+        ->type_name("FILE");
+    display.add_options(command);
+}
+
+void PictureSettings::prepare(const std::vector<FrameFiles>& files) {
+    std::vector<std::string> outputs;
+    for (const FrameFiles& frame : files) {
+        outputs.insert(outputs.end(), frame.outputs.begin(), frame.outputs.end());
+    }
+    if (layers == "both" && !std::all_of(outputs.begin(), outputs.end(), is_exr_file)) {
+        throw InvalidArgument("--output-layers", layers, "needs EXR output: others have no layers");
+    }
+    output.check_depth(outputs);
+    if (!side_by_side_file.empty()) outputs.push_back(side_by_side_file);
+    display.prepare(outputs);
+}
+
+void SpreadSettings::add_options(CLI::App& group) {
+    one_of(group.add_option("--method", method,
+                            "fft; direct: the plain double sum, exact and slow; auto: fft"),
+           {"auto", "fft", "direct"})
+        ->capture_default_str();
+    number(group.add_option("--threshold", threshold,
+                            "Pixel values below make no glare (continuous ramp); 0 is physical"),
+           0, 1e30)
+        ->type_name("V")
+        ->capture_default_str();
+    number(group.add_option("--gain", gain, "Scales the scattered light; 1 conserves energy"), 0,
+           1e6)
+        ->type_name("G")
+        ->capture_default_str();
+    one_of(group.add_option("--surround", surround,
+                            "What lies beyond the border. dark: nothing, borders lose light; same: "
+                            "for each pixel surroundings as bright as itself"),
+           {"dark", "same"})
+        ->capture_default_str();
+}
+
+glare::GlareOptions SpreadSettings::options(bool matte) const {
+    glare::GlareOptions options;
+    options.method = glare::method_from_name(method == "auto" ? "fft" : method);
+    options.threshold = threshold;
+    options.gain = gain;
+    options.matte = matte;
+    options.surround = glare::surround_from_name(surround);
+    return options;
+}
+
+void PictureJob::prepare(const io::Picture& picture) {
+    const View display = observer_.view_of(picture);
+    const View view = data_view(display, picture);
+    const int channels = picture.color_channels();
+    const bool adapted = observer_.adapt(picture);
+    if (prepared_ && adapted && same_view(prepared_->view, view) &&
+        same_view(prepared_->display, display) && prepared_->channels == channels) {
+        return;
+    }
+    prepared_.reset();
+    const std::optional<wave::Psf> psf =
+        session_.timed("psf", [&] { return observer_.psf(display, view); });
+    session_.timed("plan", [&] {
+        prepared_.emplace(Prepared{display, view, channels, std::nullopt});
+        if (psf) {
+            prepared_->glare.emplace(view, channels, *psf,
+                                     spread_.options(!settings_.matte_file.empty()));
+        }
+        observer_.plan(view);
+    });
+    solid_angles_ = relative_solid_angles(view);
+    result_ = Image(view.width, view.height, channels);
+}
+
+const float* PictureJob::matte_for(const io::Picture& picture) {
+    if (settings_.matte_file.empty()) return nullptr;
+    if (matte_.empty()) {
+        const io::Picture file = io::read_picture(settings_.matte_file);
+        matte_ = copy(file.image().view().channel_range(0, 1));
+        replace_nonfinite(matte_);
+    }
+    if (matte_.width() != picture.image().width() || matte_.height() != picture.image().height()) {
+        throw FileError(settings_.matte_file,
+                        fmt::format("is {}x{} pixels; a matte must have the size of the picture, "
+                                    "{}x{}",
+                                    matte_.width(), matte_.height(), picture.image().width(),
+                                    picture.image().height()));
+    }
+    return matte_.plane(0);
+}
+
+// Into result_; and what that changed into layer_.
+void PictureJob::spread(const ConstImageView& in, const float* matte) {
+    const View& view = prepared_->view;
+    if (prepared_->glare) {
+        session_.timed("apply", [&] { prepared_->glare->apply(in, result_, matte); });
+        const glare::Energy energy = prepared_->glare->energy(in, result_, matte);
+        energy_.in += energy.in;
+        energy_.out += energy.out;
+        energy_.off_picture += energy.off_picture;
+        energy_.from_surround += energy.from_surround;
+    } else {
+        session_.timed("apply", [&] { result_ = copy(in); });
+        const double energy = energy_of(in, view, solid_angles_);
+        energy_.in += energy;
+        energy_.out += energy;
+    }
+    if (settings_.layers == "composite") return;
+    layer_ = prepared_->glare ? difference(result_, in) : Image(in.width, in.height, in.channels);
+}
+
+void PictureJob::add_ghosts(const Image& ghosts) {
+    has_ghosts_ = true;
+    Image grey;  // the luminance, for a grey picture
+    const Image* added = &ghosts;
+    if (result_.channels() == 1) {
+        grey = Image(ghosts.width(), ghosts.height(), 1);
+        add_light(ghosts, grey);
+        added = &grey;
+    }
+    const double energy = energy_of(*added, prepared_->view, solid_angles_);
+    energy_.ghosts += energy;
+    energy_.out += energy;
+    add_light(ghosts, result_);
+    if (!layer_.empty()) add_light(ghosts, layer_);
+}
+
+void PictureJob::process(const FrameFiles& files) {
+    io::Picture picture = session_.timed("read", [&] { return io::read_picture(files.input); });
+    const std::size_t nonfinite = replace_nonfinite(picture.color());
+    if (nonfinite > 0) {
+        session_.note(fmt::format("{}: {} pixels with NaN or infinity replaced by 0", files.input,
+                                  nonfinite));
+    }
+    nonfinite_pixels_ += nonfinite;
+    const float* matte = matte_for(picture);
+    exposure_ev_ = settings_.display.exposure_ev(picture);
+    prepare(picture);
+    session_.check_interrupt();
+    spread(picture.color(), matte);
+    session_.check_interrupt();
+    if (const Image* ghosts =
+            observer_.ghosts(picture, prepared_->display, prepared_->view, matte)) {
+        add_ghosts(*ghosts);
+        session_.check_interrupt();
+    }
+    session_.timed("write", [&] { write(files, picture); });
+}
+
+void PictureJob::process(const std::vector<FrameFiles>& list) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        session_.check_interrupt();
+        process(list[i]);
+        if (list.size() > 1) {
+            session_.report("frames",
+                            static_cast<double>(i + 1) / static_cast<double>(list.size()));
+        }
+    }
+}
+
+void PictureJob::write(const FrameFiles& files, const io::Picture& picture) {
+    const auto encode = [&](const ConstImageView& linear) {
+        return settings_.display.encode(linear, exposure_ev_);
+    };
+    const ConstImageView main = settings_.layers == "glare" ? layer_.view() : result_.view();
+    for (const std::string& path : files.outputs) {
+        if (is_display_file(path)) {
+            io::write_picture(path, display_picture(encode(main), picture));
+        } else {
+            io::Picture output = with_color(picture, main);
+            if (settings_.layers == "both") output.append_layer("glare", layer_);
+            settings_.output.write(path, output, session_);
+        }
+        written_.push_back(path);
+    }
+    if (!files.side_by_side.empty()) {
+        const Image before = encode(over_display_window(picture.color(), picture));
+        const Image after = encode(over_display_window(result_, picture));
+        io::write_picture(files.side_by_side, io::Picture(side_by_side(before, after)));
+        written_.push_back(files.side_by_side);
+    }
+}
+
+std::string PictureJob::report() {
+    auto& json = session_.json();
+    const Prepared& last = *prepared_;
+    json["outputs"] = written_;
+    json["energy"] = {
+        {"in", energy_.in}, {"out", energy_.out}, {"off_picture", energy_.off_picture}};
+    if (energy_.from_surround != 0) json["energy"]["from_surround"] = energy_.from_surround;
+    if (has_ghosts_) json["energy"]["ghosts"] = energy_.ghosts;
+    if (last.glare) json["method"] = spread_.method == "direct" ? "direct" : "fft";
+    json["nonfinite_pixels"] = nonfinite_pixels_;
+    auto& parameters = json["parameters"];
+    parameters = {{"width", last.view.width},
+                  {"height", last.view.height},
+                  {"fov_deg", last.display.horizontal_field_deg()},
+                  {"perspective", last.view.projection == Projection::kPerspective},
+                  {"pitch_deg", last.view.pitch_deg},
+                  {"output_layers", settings_.layers},
+                  {"depth", settings_.output.depth()},
+                  {"tone_map", settings_.display.tone_map()},
+                  {"exposure_ev", exposure_ev_},
+                  {"threads", thread_count()}};
+    if (last.glare) {
+        parameters.update({{"padded_width", last.glare->padded_width()},
+                           {"padded_height", last.glare->padded_height()},
+                           {"threshold", spread_.threshold},
+                           {"gain", spread_.gain},
+                           {"surround", spread_.surround}});
+    }
+    if (!settings_.matte_file.empty()) parameters["matte"] = settings_.matte_file;
+    observer_.report(json);
+    std::string summary;
+    for (const std::string& path : written_) summary += path + "\n";
+    const auto percent = [&](double energy) {
+        return energy_.in > 0 ? 100 * energy / energy_.in : 0.0;
+    };
+    if (last.glare) {
+        summary += fmt::format("glare moved {:.2f} % of the light out of the picture;",
+                               percent(energy_.off_picture));
+    }
+    if (has_ghosts_) {
+        summary += fmt::format("{}ghosts added {:.3g} % to the light of the picture;",
+                               last.glare ? " " : "", percent(energy_.ghosts));
+    }
+    for (const auto& [stage, seconds] : json["seconds"].items()) {
+        summary += fmt::format(" {} {:.3f} s", stage, seconds.get<double>());
+    }
+    return summary + "\n";
+}
+
+}  // namespace aureole::app
