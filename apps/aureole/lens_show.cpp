@@ -192,13 +192,15 @@ Json sweep_json(const std::vector<lens::FieldPoint>& points) {
 
 std::string sweep_text(const std::vector<lens::FieldPoint>& points) {
     std::string text =
-        fmt::format("\n  {:>9}{:>10}{:>13}{:>11}{:>14}{:>15}\n", "angle deg", "image mm",
+        fmt::format("\n  {:>9}{:>11}{:>14}{:>11}{:>16}{:>16}\n", "angle deg", "image mm",
                     "distortion %", "open mm2", "open of axis %", "illumination %");
+    // Without the minus sign of what rounds to zero.
+    const auto rounded = [](double value) { return std::round(100 * value) / 100 + 0.0; };
     for (const lens::FieldPoint& point : points) {
-        text += fmt::format("  {:>9.4g}{:>10.2f}{:>13.2f}{:>11.1f}{:>14.1f}{:>15.1f}\n",
-                            point.angle_deg, point.image_height_mm, 100 * point.distortion,
-                            point.open_area_mm2, 100 * point.relative_area,
-                            100 * point.relative_illumination);
+        text += fmt::format("  {:>9.4g}{:>11.2f}{:>14.2f}{:>11.1f}{:>16.1f}{:>16.1f}\n",
+                            point.angle_deg, rounded(point.image_height_mm),
+                            rounded(100 * point.distortion), point.open_area_mm2,
+                            100 * point.relative_area, 100 * point.relative_illumination);
     }
     return text;
 }

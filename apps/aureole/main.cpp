@@ -22,10 +22,13 @@ std::string command_names(const CLI::App& app) {
     return names;
 }
 
-// The last command of the line: `lens show` is a command of a command.
-const CLI::App& innermost(const CLI::App& app) {
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    return chosen.empty() ? app : innermost(*chosen.front());
+// The commands that were chosen: `lens show` is a command of a command.
+std::vector<const CLI::App*> chosen_commands(const CLI::App& app) {
+    std::vector<const CLI::App*> chosen = {&app};
+    while (!chosen.back()->get_subcommands().empty()) {
+        chosen.push_back(chosen.back()->get_subcommands().front());
+    }
+    return chosen;
 }
 
 // What is wrong with a command line that cannot be parsed. Options that do not exist come first:
@@ -40,15 +43,15 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     }
     const std::string& first = unexpected.front();
     if (first.starts_with("-")) return "unknown option " + first;
-    const CLI::App& command = innermost(app);
-    const std::string names = command_names(command);
+    const std::string names = command_names(*chosen_commands(app).back());
     if (names.empty()) return "unexpected argument " + first;
     return "unknown command " + first + ": must be one of " + names;
 }
 
 int wrong_usage(const CLI::App& app, const std::string& message) {
-    fmt::print(stderr, "aureole: {}\nAll options: {} --help\n", message,
-               innermost(app).get_display_name());
+    std::string words;
+    for (const CLI::App* command : chosen_commands(app)) words += command->get_name() + " ";
+    fmt::print(stderr, "aureole: {}\nAll options: {}--help\n", message, words);
     return kWrongUsage;
 }
 
