@@ -110,11 +110,17 @@ void cut_by_ellipse(Interval& chord, double u0, double v0, double ru, double rv,
     half < 0 ? chord.clear() : chord.cut(u0 - half, u0 + half);
 }
 
+// Smooth corners and pictures have no simple chords.
+bool is_sampled(const Iris& iris) {
+    return iris.is_image() || (iris.shape().blades > 0 && iris.shape().smoothing > 0);
+}
+
 // The same in the iris, placed like a clip, with sharp corners.
 void cut_by_iris(Interval& chord, const Iris& iris, double u0, double v0, double ru, double rv,
                  double v) {
-    if (iris.shape().blades == 0 || iris.is_image()) {
-        const double radius = iris.outer_radius();
+    if (iris.shape().blades == 0 || is_sampled(iris)) {
+        // What is sampled fades over the width of a sample.
+        const double radius = iris.outer_radius() + (is_sampled(iris) ? 0.1 : 0);
         cut_by_ellipse(chord, u0, v0, radius * ru, radius * rv, v);
         return;
     }
@@ -147,12 +153,12 @@ void cut_by_iris(Interval& chord, const Iris& iris, double u0, double v0, double
 OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
                    std::span<const MatrixGhost::Clip> clips) noexcept {
     const Iris& iris = *pupil.iris;
-    const bool smooth = iris.shape().smoothing > 0;
-    const double reach = static_cast<double>(pupil.outer_radius(0));
+    const bool smooth = is_sampled(iris) && !iris.is_image();
+    const double reach = static_cast<double>(pupil.outer_radius(0)) + (smooth ? 0.1 : 0);
     Interval range = {-reach, reach};
     for (const MatrixGhost::Clip& clip : clips) {
         const double outer = static_cast<double>(std::abs(clip.rv)) *
-                             (clip.iris ? iris.outer_radius() : 1.0);
+                             (clip.iris ? iris.outer_radius() + (smooth ? 0.1 : 0) : 1.0);
         range.cut(static_cast<double>(clip.v0) - outer, static_cast<double>(clip.v0) + outer);
     }
     OpenArea open;
