@@ -121,6 +121,9 @@ lens::Iris CameraOptions::iris() const {
 }
 
 Camera CameraOptions::camera(Session& session) const {
+    if (group_->get_option("--lens")->count() == 0) {
+        session.note("no lens given: using " + lens_.name() + " (--lens)");
+    }
     const std::array<double, 2> sensor_mm = *sensor_size(sensor_);
     Camera camera{lens_.lens(session), iris(), std::nullopt, sensor_mm[0], sensor_mm[1]};
     if (!occluder_file_.empty()) {

@@ -111,7 +111,7 @@ void LightOptions::check() const {
     for (const std::string& text : given_) {
         const Given given = parse(text);
         // Pixels need the picture's view.
-        if (given.angles) light(given, View::from_fov(16, 9, 60, Projection::kPerspective));
+        if (given.angles) light(text, View::from_fov(16, 9, 60, Projection::kPerspective));
     }
     if (const auto threshold = given_number(threshold_); threshold && !(*threshold > 0)) {
         throw InvalidArgument("--light-threshold", threshold_, "must be auto or a number above 0");
@@ -124,24 +124,25 @@ void LightOptions::check() const {
     }
 }
 
-sources::Light LightOptions::light(const Given& given, const View& display) const {
-    if (!given.angles) {
-        return sources::light_at(display, given.x, given.y, given.radiance, given.diameter_deg);
+sources::Light LightOptions::light(const std::string& text, const View& display) {
+    const Given given = parse(text);
+    try {
+        if (!given.angles) {
+            return sources::light_at(display, given.x, given.y, given.radiance, given.diameter_deg);
+        }
+        const double f = display.focal_length_px();
+        return sources::light_in_direction(given.x, given.y, given.radiance, given.diameter_deg,
+                                           1 / (f * f));
+    } catch (const InvalidArgument& error) {
+        throw InvalidArgument("--light", text, error.what());
     }
-    const double f = display.focal_length_px();
-    return sources::light_in_direction(given.x, given.y, given.radiance, given.diameter_deg,
-                                       1 / (f * f));
 }
 
 PictureLights LightOptions::lights(const io::Picture& picture, const View& display,
                                    const View& data, const float* matte, Session& session) const {
     PictureLights result;
     for (const std::string& text : given_) {
-        try {
-            result.lights.push_back(light(parse(text), display));
-        } catch (const InvalidArgument& error) {
-            throw InvalidArgument("--light", text, error.what());
-        }
+        result.lights.push_back(light(text, display));
     }
     result.given = result.lights.size();
     if (!searches()) return result;

@@ -53,10 +53,10 @@ double angle_deg(const wave::KernelGrid& grid, double radius_px) {
 }
 
 // A ring moves by r d(ln lambda) pixels from one band to the next: the further out, the more bands.
-void add_middle(const StarburstPattern& pattern, const StarburstOptions& options,
+void add_raster(const PatternRaster& raster, const StarburstOptions& options,
                 const wave::KernelGrid& grid, Image& out) {
     const auto add = [&](int bands, wave::AngleRange range) {
-        wave::add_spectral(pattern.middle, pattern.extent_mm, wave::PixelRule::kEnergy,
+        wave::add_spectral(raster.energy, raster.extent_mm, wave::PixelRule::kEnergy,
                            color::sample_spectrum(bands, color::WavelengthSpacing::kLogarithmic,
                                                   options.illuminant),
                            grid, range, out, wave::Symmetry::kHalfTurn);
@@ -70,7 +70,7 @@ void add_middle(const StarburstPattern& pattern, const StarburstOptions& options
     const color::SpectralRange visible;
     const double log_range = std::log(visible.high_nm / visible.low_nm);
     const double sine =
-        std::min(0.999, pattern.crossover.end * mm_from_nm(visible.high_nm) / pattern.extent_mm);
+        std::min(0.999, raster.end * mm_from_nm(visible.high_nm) / raster.extent_mm);
     const double end_deg = deg_from_rad(std::asin(sine)) + angle_deg(grid, 1);
     double from_deg = 0;
     for (int bands = kFewest; from_deg < end_deg; bands *= 2) {
@@ -120,15 +120,14 @@ wave::Psf starburst_psf(const Iris& iris, double pupil_diameter_mm, const wave::
     done(0);
     const wave::ApertureGrid aperture_grid =
         starburst_grid(iris, pupil_diameter_mm, options.samples, grid);
-    StarburstAperture aperture = draw_aperture(iris, pupil_diameter_mm, aperture_grid, occluder);
-    done(0.25);
-    const StarburstPattern pattern =
-        starburst_pattern(std::move(aperture), raster_end(aperture_grid, grid));
-    done(0.5);
+    const StarburstPattern pattern = starburst_pattern(iris, pupil_diameter_mm, aperture_grid,
+                                                       raster_end(aperture_grid, grid), occluder);
+    done(0.4);
     wave::Psf psf;
     psf.grid = grid;
     psf.kernel = Image(grid.width, grid.height, 3);
-    add_middle(pattern, options, grid, psf.kernel);
+    if (pattern.core) add_raster(*pattern.core, options, grid, psf.kernel);
+    add_raster(pattern.wide, options, grid, psf.kernel);
     done(0.8);
     constexpr int kTailBands = 256;
     add_beyond(pattern,

@@ -108,7 +108,7 @@ wave::ApertureGrid starburst_grid(const Iris& iris, double pupil_diameter_mm, in
     const double pixel_mm = kGreenMm * kernel.view().focal_length_px();  // lambda / pixel
     // At least kSamplesPerPixel across a pixel, since a sample is read as evenly bright; but not so
     // many that the raster ends before the pattern has settled to its law.
-    constexpr double kSamplesPerPixel = 4;
+    constexpr double kSamplesPerPixel = 5;
     constexpr double kLeastReach = 128;  // samples per lambda / opening at least
     const double fine_mm =
         std::min(kSamplesPerPixel * pixel_mm, samples * opening_mm / kLeastReach);

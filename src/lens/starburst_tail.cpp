@@ -24,14 +24,14 @@ class Colour {
             shortest = std::min(shortest, band.wavelength_nm);
             longest = std::max(longest, band.wavelength_nm);
         }
-        first_ = pattern.crossover.full * mm_from_nm(shortest) / pattern.extent_mm;
-        const double last = pattern.crossover.end * mm_from_nm(longest) / pattern.extent_mm;
+        first_ = pattern.crossover.full * mm_from_nm(shortest) / pattern.wide.extent_mm;
+        const double last = pattern.crossover.end * mm_from_nm(longest) / pattern.wide.extent_mm;
         steps_per_log_ = (kEntries - 1) / std::log(last / first_);
         for (std::size_t i = 0; i < kEntries; ++i) {
             const double sine = first_ * std::exp(static_cast<double>(i) / steps_per_log_);
             for (const color::SpectralBand& band : bands) {
-                const double step = mm_from_nm(band.wavelength_nm) / pattern.extent_mm;
-                const double share = 1 - pattern.crossover.raster_share(sine / step);
+                const double step = mm_from_nm(band.wavelength_nm) / pattern.wide.extent_mm;
+                const double share = 1 - pattern.crossover.before(sine / step);
                 for (std::size_t c = 0; c < 3; ++c) table_[i][c] += band.rgb[c] * step * share;
             }
         }
