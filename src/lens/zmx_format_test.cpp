@@ -28,6 +28,13 @@ TEST(ZmxFormat, EveryEncodingOfAFileIsTheSameLens) {
     EXPECT_EQ(parse_zmx(utf16(kTripletZmx, false), "f"), lens);
     EXPECT_EQ(parse_zmx(utf16(kTripletZmx, true), "f"), lens);
     EXPECT_EQ(parse_zmx("\xEF\xBB\xBF" + std::string(kTripletZmx), "f"), lens);
+    // Names keep their letters; bytes of other code pages are not UTF-8.
+    EXPECT_EQ(parse_zmx(with(kTripletZmx, "NAME Triplet", "NAME F\xC3\xBCr 50"), "f").name,
+              "F\xC3\xBCr 50");
+    EXPECT_EQ(parse_zmx(with(kTripletZmx, "NAME Triplet", "NAME F\xFCr 50"), "f").name, "F?r 50");
+    const auto accent =
+        with(utf16(kTripletZmx, false), utf16("T", false).substr(2) + "r", "\xFC\x01r");
+    EXPECT_EQ(parse_zmx(accent, "f").name, "\xC7\xBCriplet");
     std::string windows;
     for (const char c : kTripletZmx) windows += c == '\n' ? "\r\n" : std::string(1, c);
     EXPECT_EQ(parse_zmx(windows, "f"), lens);
