@@ -51,7 +51,7 @@ class LightOptions {
     bool searches() const { return given_.empty() || found_too_; }
 
     CLI::Option_group* group_ = nullptr;
-    CLI::Option_group* search_group_ = nullptr;
+    std::vector<CLI::Option*> search_options_;  // of those found
     std::vector<std::string> given_;
     bool found_too_ = false;
     std::string threshold_ = "auto";
