@@ -29,8 +29,10 @@ struct StarburstPattern {
     // The core, where light varies within a sample of the wide raster; none if that is fine enough.
     std::optional<PatternRaster> core;
     PatternRaster wide;
-    Crossover crossover;    // from the wide raster to the law, in samples of that raster
-    AngularProfile beyond;  // energy per sample of the wide raster
+    Crossover crossover;  // from the wide raster to the laws, in samples of that raster
+    // Energy per sample of the wide raster: of straight blades, and of all else.
+    SpikeProfile spikes;
+    AngularProfile beyond;
 };
 
 // Unit energy over all directions.
