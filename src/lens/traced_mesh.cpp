@@ -5,10 +5,11 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "lens/mesh_classify.h"
+#include "lens/mesh_facets.h"
+
 namespace aureole::lens {
 namespace {
-
-constexpr int kFields = 7;
 
 std::size_t field_floats(int columns, int rows) {
     return static_cast<std::size_t>(ray_stride(columns)) * static_cast<std::size_t>(rows) +
@@ -16,7 +17,7 @@ std::size_t field_floats(int columns, int rows) {
 }
 
 std::size_t most_groups(int columns, int rows) {
-    return static_cast<std::size_t>((columns / kGroup + 1) * rows);
+    return static_cast<std::size_t>(2 * (columns / kGroup + 1) * rows);
 }
 
 // Rays that never arrive still serve as neighbours of cells that do: their positions are continued
@@ -88,27 +89,28 @@ TracedMesh::TracedMesh(int side)
     std::fill(memory_.data(), memory_.data() + memory_.size(), 0.0F);
     float* memory = memory_.data();
     allocate(grid_, side, side, memory);
-    memory += kFields * field_floats(side, side);
+    memory += kMeshFields * field_floats(side, side);
     sparse_ = memory;
     memory += field_floats(sparse_side_, sparse_side_);
     for (Patch& patch : patches_) {
         allocate(patch.mesh, kPatchColumns, kPatchRows, memory);
-        memory += kFields * field_floats(kPatchColumns, kPatchRows);
+        memory += kMeshFields * field_floats(kPatchColumns, kPatchRows);
     }
 }
 
 std::size_t TracedMesh::bytes(int side) {
     const int sparse = (side - 1 + kSparse - 1) / kSparse + 1;
-    return sizeof(float) * (kFields * field_floats(side, side) + field_floats(sparse, sparse) +
-                            kMaxPatches * kFields * field_floats(kPatchColumns, kPatchRows));
+    return sizeof(float) * (kMeshFields * field_floats(side, side) + field_floats(sparse, sparse) +
+                            kMaxPatches * kMeshFields * field_floats(kPatchColumns, kPatchRows));
 }
 
 void TracedMesh::allocate(Mesh& mesh, int columns, int rows, float* memory) const {
     mesh.columns = columns;
     mesh.rows = rows;
     mesh.stride = ray_stride(columns);
-    float** const fields[kFields] = {&mesh.x,    &mesh.y,     &mesh.u,    &mesh.v,
-                                     &mesh.clip, &mesh.power, &mesh.share};
+    float** const fields[kMeshFields] = {&mesh.x,     &mesh.y,      &mesh.u,
+                                         &mesh.v,     &mesh.clip,   &mesh.power,
+                                         &mesh.smooth, &mesh.radiance, &mesh.share};
     for (float** field : fields) {
         *field = memory;
         memory += field_floats(columns, rows);
@@ -179,13 +181,21 @@ void TracedMesh::trace(const MeshJob& job, Mesh& mesh, double i, double j, doubl
     }
 }
 
+// Gives refined cells patches as long as there are any; the others are drawn as they are.
 void TracedMesh::refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
-                        int depth, const std::uint8_t* state) noexcept {
+                        int depth, std::uint8_t* state) noexcept {
     for (int row = 1; row + 2 < mesh.rows; ++row) {
+        std::uint8_t* cell = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        const float* clip = mesh.clip + row * mesh.stride;
         for (int column = 1; column + 2 < mesh.columns; ++column) {
-            const std::uint8_t* cell = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
             if (cell[column] != kCellRefined) continue;
-            if (patch_count_ == kMaxPatches) return;
+            if (depth == kMaxDepth || patch_count_ == kMaxPatches) {
+                const auto there = [&](std::ptrdiff_t k) { return clip[column + k] < kLostRay; };
+                const bool whole =
+                    there(0) && there(1) && there(mesh.stride) && there(mesh.stride + 1);
+                cell[column] = whole ? kCellMasked : kCellDead;
+                continue;
+            }
             int run = 1;
             while (run < kRun && column + run + 2 < mesh.columns &&
                    cell[column + run] == kCellRefined) {
@@ -198,8 +208,6 @@ void TracedMesh::refine(const MeshJob& job, const Mesh& mesh, double i, double j
             patch.i = i + column * step - patch.step;
             patch.j = j + row * step - patch.step;
             trace(job, patch.mesh, patch.i, patch.j, patch.step);
-            float* share = mesh.share + row * mesh.stride + column;
-            std::fill(share, share + run, 0.0F);
             column += run - 1;
         }
     }
@@ -243,30 +251,29 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     ClassifyOptions options;
     options.inner_radius = job.inner_radius;
     options.outer_radius = job.outer_radius;
-    options.blur_px = job.blur_px;
+    options.all_masked = job.all_masked;
     options.x0 = job.x0;
     options.x1 = job.x1;
     options.y0 = job.y0;
     options.y1 = job.y1;
-    const auto classify = [&](const Mesh& mesh, std::uint8_t* state) {
+    const auto finish = [&](const Mesh& mesh, double i, double j, double step, int depth,
+                            std::uint8_t* state) {
+        mesh_classifier().classify(mesh, options, state);
+        refine(job, mesh, i, j, step, depth, state);
         const int first = group_count_;
-        const int count = mesh_kernels().classify(mesh, options, state, groups_.data() + first);
+        const int count = mesh_classifier().divide(mesh, state, groups_.data() + first);
         group_count_ += count;
         add_bounds(std::span(groups_).subspan(static_cast<std::size_t>(first),
                                               static_cast<std::size_t>(count)));
         return count;
     };
-    grid_groups_ = classify(grid_, state_.data());
-    refine(job, grid_, 0, 0, 1, 0, state_.data());
+    grid_groups_ = finish(grid_, 0, 0, 1, 0, state_.data());
     // The list grows while it is worked through.
     for (int k = 0; k < patch_count_; ++k) {
         Patch& patch = patches_[static_cast<std::size_t>(k)];
         patch.first_group = group_count_;
-        patch.group_count = classify(patch.mesh, patch_state_.data());
-        if (patch.depth < kMaxDepth) {
-            refine(job, patch.mesh, patch.i, patch.j, patch.step, patch.depth,
-                   patch_state_.data());
-        }
+        patch.group_count =
+            finish(patch.mesh, patch.i, patch.j, patch.step, patch.depth, patch_state_.data());
     }
     if (getenv("DBG")) {
         double pieces = 0, most = 0; for (int g = 0; g < group_count_; ++g) { double p = 16.0*groups_[g].pieces_i*groups_[g].pieces_j; pieces += p; if (p>most) most=p; }
@@ -280,10 +287,13 @@ void TracedMesh::draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups
     const auto x1 = static_cast<float>(tile.x1);
     const auto y0 = static_cast<float>(tile.y0);
     const auto y1 = static_cast<float>(tile.y1);
-    const auto draw = mesh_kernels().draw;
     for (const MeshGroup& group : groups) {
         if (group.y1 < y0 || group.y0 > y1 || group.x1 < x0 || group.x0 > x1) continue;
-        draw(mesh, group, mask, tile);
+        if (group.pieces_i > 0) {
+            draw_pieces(mesh, group, mask, tile);
+        } else {
+            draw_facets(mesh, group, tile);
+        }
     }
 }
 

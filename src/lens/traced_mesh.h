@@ -6,7 +6,8 @@
 
 #include "aureole/base/buffer.h"
 #include "lens/film.h"
-#include "lens/mesh_kernels.h"
+#include "lens/mesh_pieces.h"
+#include "lens/mesh_types.h"
 #include "lens/ray_grid.h"
 #include "lens/ray_kernels.h"
 
@@ -21,9 +22,9 @@ struct MeshJob {
     IrisField iris;
     float inner_radius = 1;  // of the iris; see ClassifyOptions
     float outer_radius = 1;
+    bool all_masked = false;
     const Film* film = nullptr;
     int level = 0;
-    float blur_px = 0;                     // of the level
     float x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // what can be drawn on, pixels of the level
     // Energy in pixels of the level times radiance per mm^2 of the entrance and unit throughput.
     double power_per_mm2 = 0;
@@ -74,7 +75,7 @@ class TracedMesh {
     void trace(const MeshJob& job, Mesh& mesh, double i, double j, double step) noexcept;
     void trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept;
     void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step, int depth,
-                const std::uint8_t* state) noexcept;
+                std::uint8_t* state) noexcept;
     void add_bounds(std::span<const MeshGroup> groups) noexcept;
     void draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups, const PieceMask& mask,
                      const MeshTile& tile) const noexcept;
