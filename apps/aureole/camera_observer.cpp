@@ -13,6 +13,13 @@ namespace {
 
 constexpr double kSameField = 0.02;  // relative difference that is not worth a word
 
+// What there would be without dropping any ghost.
+double flare_energy(const lens::FlareReport& report) {
+    double sum = 0;
+    for (const lens::GhostReport& ghost : report.ghosts) sum += ghost.energy;
+    return sum;
+}
+
 }  // namespace
 
 CameraObserver::CameraObserver(const CameraOptions& camera, const GhostOptions& ghosts,
@@ -75,6 +82,9 @@ const Image* CameraObserver::ghosts(const io::Picture& picture, const View& disp
         for (int c = 0; c < 3; ++c) std::fill_n(ghosts_.plane(c), ghosts_.pixels(), 0.0F);
         flare_->render(lights_.lights, ghosts_);
     });
+    if (!lights_.lights.empty() && flare_energy(flare_->report()) == 0) {
+        session_.note("the lens does not see the light, or all ghosts are off: no ghosts");
+    }
     if (!ghost_options_.dump_file().empty()) {
         ghost_options_.dump(camera_options_.lens_name(), camera_.lens, flare_options_,
                             flare_->report());

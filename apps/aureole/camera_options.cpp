@@ -58,27 +58,27 @@ double Camera::field_deg(int width, int height) const {
 void CameraOptions::add_options(CLI::App& command, const std::string& fallback_lens) {
     group_ = command.add_option_group("The camera");
     lens_.add_options(*group_, fallback_lens);
-    blades_group_ = group_->add_option_group("Its iris");
-    CLI::Option_group& iris = *blades_group_;
-    whole_number(
-        iris.add_option("--blades", shape_.blades, "Blades of the iris, 3 to 64; 0: round"), 0,
-        lens::Iris::kMaxBlades)
-        ->type_name("N")
-        ->capture_default_str();
-    number(iris.add_option("--blade-curvature", shape_.curvature,
-                           "0: straight blades; 1: the circle through their corners"),
-           0, 1)
-        ->type_name("0..1")
-        ->capture_default_str();
-    number(iris.add_option("--iris-rotation", shape_.rotation_deg,
-                           "0: a corner points to the right of the picture"))
-        ->type_name("DEG")
-        ->capture_default_str();
-    number(iris.add_option("--iris-smoothing", shape_.smoothing,
-                           "Rounds the corners: k of a smooth maximum of the blades' distances"),
-           0, 0.5)
-        ->type_name("0..0.5")
-        ->capture_default_str();
+    blade_options_ = {
+        whole_number(
+            group_->add_option("--blades", shape_.blades, "Blades of the iris, 3 to 64; 0: round"),
+            0, lens::Iris::kMaxBlades)
+            ->type_name("N")
+            ->capture_default_str(),
+        number(group_->add_option("--blade-curvature", shape_.curvature,
+                                  "0: straight blades; 1: the circle through their corners"),
+               0, 1)
+            ->type_name("0..1")
+            ->capture_default_str(),
+        number(group_->add_option("--iris-rotation", shape_.rotation_deg,
+                                  "0: a corner points to the right of the picture"))
+            ->type_name("DEG")
+            ->capture_default_str(),
+        number(group_->add_option("--iris-smoothing", shape_.smoothing,
+                                  "Rounds the corners: k of a smooth maximum of the blades' "
+                                  "distances"),
+               0, 0.5)
+            ->type_name("0..0.5")
+            ->capture_default_str()};
     group_
         ->add_option("--iris", iris_file_,
                      "Picture of the opening in place of blades: white lets light through; its "
@@ -114,13 +114,18 @@ lens::Iris CameraOptions::iris() const {
         }
         return lens::Iris(shape_);
     }
-    if (const std::string option = app::first_given(*blades_group_); !option.empty()) {
-        throw InvalidArgument("--iris", iris_file_, "replaces the blades: leave out " + option);
+    for (const CLI::Option* option : blade_options_) {
+        if (option->count() == 0) continue;
+        throw InvalidArgument("--iris", iris_file_,
+                              "replaces the blades: leave out " + option->get_name());
     }
     return made_from(iris_file_, [](const Image& image) { return lens::Iris(image); });
 }
 
 Camera CameraOptions::camera(Session& session) const {
+    if (group_->get_option("--lens")->count() == 0) {
+        session.note("no lens given: using " + lens_.name() + " (--lens)");
+    }
     const std::array<double, 2> sensor_mm = *sensor_size(sensor_);
     Camera camera{lens_.lens(session), iris(), std::nullopt, sensor_mm[0], sensor_mm[1]};
     if (!occluder_file_.empty()) {

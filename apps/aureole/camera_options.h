@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "aureole/lens/iris.h"
 #include "aureole/lens/lens.h"
@@ -48,7 +49,7 @@ class CameraOptions {
     lens::Iris iris() const;
 
     CLI::Option_group* group_ = nullptr;
-    CLI::Option_group* blades_group_ = nullptr;
+    std::vector<CLI::Option*> blade_options_;
     LensOptions lens_;
     lens::IrisShape shape_;
     std::string iris_file_;

@@ -6,10 +6,10 @@
 #include "aureole/base/error.h"
 #include "aureole/image/finite.h"
 #include "aureole/io/picture.h"
+#include "aureole/io/text_file.h"
 #include "aureole/lens/ghost_settings.h"
 #include "option_checks.h"
 #include "output_options.h"
-#include "text_file.h"
 
 namespace aureole::app {
 namespace {
@@ -173,7 +173,7 @@ lens::FlareOptions GhostOptions::options(const lens::Lens& lens) const {
     options.look = preset_ == "blog" ? lens::Look::kBlog : lens::Look::kPhysical;
     options.tint = *weights_of(tint_);
     if (!settings_file_.empty()) {
-        options.ghosts = lens::ghosts_from_toml(read_text_file(settings_file_), settings_file_,
+        options.ghosts = lens::ghosts_from_toml(io::read_text_file(settings_file_), settings_file_,
                                                 lens::enumerate_ghosts(lens, options.set));
     }
     if (!texture_file_.empty()) {
@@ -186,9 +186,9 @@ lens::FlareOptions GhostOptions::options(const lens::Lens& lens) const {
 
 void GhostOptions::dump(const std::string& lens_name, const lens::Lens& lens,
                         const lens::FlareOptions& options, const lens::FlareReport& report) const {
-    write_text_file(dump_file_,
-                    lens::ghosts_to_toml(lens_name, lens::enumerate_ghosts(lens, options.set),
-                                         options.ghosts, &report));
+    io::write_text_file(dump_file_,
+                        lens::ghosts_to_toml(lens_name, lens::enumerate_ghosts(lens, options.set),
+                                             options.ghosts, &report));
 }
 
 nlohmann::ordered_json GhostOptions::report(const lens::FlareOptions& options) const {

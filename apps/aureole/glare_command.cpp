@@ -129,7 +129,9 @@ void GlareCommand::run() {
     const std::unique_ptr<Observer> who = observer();
     PictureJob job(settings, spread, *who, session);
     job.process(list);
-    session.finish(job.report());
+    const std::string summary = job.report();
+    session.json()["parameters"]["observer"] = observer_name;
+    session.finish(summary);
 }
 
 }  // namespace

@@ -61,18 +61,19 @@ void LightOptions::add_options(CLI::App& command) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     group_->add_flag("--found-lights", found_too_,
                      "With --light: also the lights found in the picture");
-    search_group_ = group_->add_option_group("Finding them in the picture");
-    number_or_auto(search_group_->add_option("--light-threshold", threshold_,
-                                             "Luminance in the picture's units above which pixels "
-                                             "are lights, fully from twice that on; auto: 16 times "
-                                             "the mean of the picture"))
-        ->type_name("auto|V")
-        ->capture_default_str();
-    whole_number(search_group_->add_option("--max-lights", max_lights_,
-                                           "The strongest so many; the others make no ghosts"),
-                 1, 100000)
-        ->type_name("N")
-        ->capture_default_str();
+    search_options_ = {
+        number_or_auto(group_->add_option("--light-threshold", threshold_,
+                                          "Luminance in the picture's units above which pixels "
+                                          "are lights, fully from twice that on; auto: 16 times "
+                                          "the mean of the picture"))
+            ->type_name("auto|V")
+            ->capture_default_str(),
+        whole_number(group_->add_option("--max-lights", max_lights_,
+                                        "The strongest so many of those found; the others make no "
+                                        "ghosts"),
+                     1, 100000)
+            ->type_name("N")
+            ->capture_default_str()};
 }
 
 std::string LightOptions::first_given() const { return app::first_given(*group_); }
@@ -111,37 +112,38 @@ void LightOptions::check() const {
     for (const std::string& text : given_) {
         const Given given = parse(text);
         // Pixels need the picture's view.
-        if (given.angles) light(given, View::from_fov(16, 9, 60, Projection::kPerspective));
+        if (given.angles) light(text, View::from_fov(16, 9, 60, Projection::kPerspective));
     }
     if (const auto threshold = given_number(threshold_); threshold && !(*threshold > 0)) {
         throw InvalidArgument("--light-threshold", threshold_, "must be auto or a number above 0");
     }
-    if (const std::string option = app::first_given(*search_group_);
-        !searches() && !option.empty()) {
-        throw InvalidArgument(
-            "--light", given_.front(),
-            "replaces the lights of the picture: leave out " + option + ", or add --found-lights");
+    for (const CLI::Option* option : search_options_) {
+        if (searches() || option->count() == 0) continue;
+        throw InvalidArgument("--light", given_.front(),
+                              "replaces the lights of the picture: leave out " +
+                                  option->get_name() + ", or add --found-lights");
     }
 }
 
-sources::Light LightOptions::light(const Given& given, const View& display) const {
-    if (!given.angles) {
-        return sources::light_at(display, given.x, given.y, given.radiance, given.diameter_deg);
+sources::Light LightOptions::light(const std::string& text, const View& display) {
+    const Given given = parse(text);
+    try {
+        if (!given.angles) {
+            return sources::light_at(display, given.x, given.y, given.radiance, given.diameter_deg);
+        }
+        const double f = display.focal_length_px();
+        return sources::light_in_direction(given.x, given.y, given.radiance, given.diameter_deg,
+                                           1 / (f * f));
+    } catch (const InvalidArgument& error) {
+        throw InvalidArgument("--light", text, error.what());
     }
-    const double f = display.focal_length_px();
-    return sources::light_in_direction(given.x, given.y, given.radiance, given.diameter_deg,
-                                       1 / (f * f));
 }
 
 PictureLights LightOptions::lights(const io::Picture& picture, const View& display,
                                    const View& data, const float* matte, Session& session) const {
     PictureLights result;
     for (const std::string& text : given_) {
-        try {
-            result.lights.push_back(light(parse(text), display));
-        } catch (const InvalidArgument& error) {
-            throw InvalidArgument("--light", text, error.what());
-        }
+        result.lights.push_back(light(text, display));
     }
     result.given = result.lights.size();
     if (!searches()) return result;

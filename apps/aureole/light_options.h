@@ -46,11 +46,12 @@ class LightOptions {
         double diameter_deg = 0;
     };
     static Given parse(const std::string& text);
+    // As a light of a picture whose display window is seen as `display`.
+    static sources::Light light(const std::string& text, const View& display);
     bool searches() const { return given_.empty() || found_too_; }
-    sources::Light light(const Given& given, const View& display) const;
 
     CLI::Option_group* group_ = nullptr;
-    CLI::Option_group* search_group_ = nullptr;
+    std::vector<CLI::Option*> search_options_;  // of those found
     std::vector<std::string> given_;
     bool found_too_ = false;
     std::string threshold_ = "auto";

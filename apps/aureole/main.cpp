@@ -22,6 +22,15 @@ std::string command_names(const CLI::App& app) {
     return names;
 }
 
+// The commands that were chosen: `lens show` is a command of a command.
+std::vector<const CLI::App*> chosen_commands(const CLI::App& app) {
+    std::vector<const CLI::App*> chosen = {&app};
+    while (!chosen.back()->get_subcommands().empty()) {
+        chosen.push_back(chosen.back()->get_subcommands().front());
+    }
+    return chosen;
+}
+
 // What is wrong with a command line that cannot be parsed. Options that do not exist come first:
 // what CLI11 misses may well be what a mistyped option should have been.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
@@ -34,14 +43,15 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     }
     const std::string& first = unexpected.front();
     if (first.starts_with("-")) return "unknown option " + first;
-    if (!app.get_subcommands().empty()) return "unexpected argument " + first;
-    return "unknown command " + first + ": must be one of " + command_names(app);
+    const std::string names = command_names(*chosen_commands(app).back());
+    if (names.empty()) return "unexpected argument " + first;
+    return "unknown command " + first + ": must be one of " + names;
 }
 
 int wrong_usage(const CLI::App& app, const std::string& message) {
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    fmt::print(stderr, "aureole: {}\nAll options: aureole {}--help\n", message,
-               chosen.empty() ? "" : chosen.front()->get_name() + " ");
+    std::string words;
+    for (const CLI::App* command : chosen_commands(app)) words += command->get_name() + " ";
+    fmt::print(stderr, "aureole: {}\nAll options: {}--help\n", message, words);
     return kWrongUsage;
 }
 
@@ -55,7 +65,8 @@ int run(int argc, char** argv) {
 
     using namespace aureole::app;
     std::vector<Run> commands = {add_glare_command(app), add_flare_command(app),
-                                 add_psf_command(app), add_scene_command(app)};
+                                 add_lens_command(app), add_psf_command(app),
+                                 add_scene_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

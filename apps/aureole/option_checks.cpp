@@ -111,9 +111,6 @@ std::string first_given(const CLI::App& group) {
     for (const CLI::Option* option : group.get_options()) {
         if (option->count() > 0) return option->get_name();
     }
-    for (const CLI::App* inner : group.get_subcommands([](const CLI::App*) { return true; })) {
-        if (std::string name = first_given(*inner); !name.empty()) return name;
-    }
     return "";
 }
 

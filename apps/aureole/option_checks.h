@@ -32,8 +32,7 @@ std::optional<double> given_number(const std::string& text);
 // "0.5,1,2" with the separator ',' as numbers, or nothing unless all parts are finite numbers.
 std::optional<std::vector<double>> given_numbers(const std::string& text, char separator);
 
-// The first option of a group, or of the groups in it, that was given on the command line; else
-// empty.
+// The first option of a group that was given on the command line; else empty.
 std::string first_given(const CLI::App& group);
 
 }  // namespace aureole::app

@@ -14,6 +14,18 @@ std::size_t tasks_for(int rows) {
     return static_cast<std::size_t>((rows + kRowsPerTask - 1) / kRowsPerTask);
 }
 
+void clear_row(const CanvasLevel& level, int y) {
+    RowSpan& span = level.used[y];
+    if (span.empty()) return;
+    // Vectors may have written behind the span, not more than the padding.
+    const int end = std::min(span.end, level.width + level.margin) + CanvasLevel::kPadding;
+    for (float* plane : level.planes) {
+        float* row = plane + y * level.stride;
+        std::fill(row + span.begin, row + end, 0.0F);
+    }
+    span = {};
+}
+
 // Calls body(row) for rows [first, last), in parallel.
 template <class Body>
 void for_rows(int first, int last, const Body& body) {
@@ -51,19 +63,12 @@ Canvas::Canvas(int width, int height) {
     }
 }
 
-void Canvas::clear() noexcept {
-    for (const CanvasLevel& level : levels_) {
-        for_rows(-level.margin, level.height + level.margin, [&](int y) {
-            RowSpan& span = level.used[y];
-            if (span.empty()) return;
-            // Vectors may have written behind the span, not more than the padding.
-            const int end = std::min(span.end, level.width + level.margin);
-            for (float* plane : level.planes) {
-                float* row = plane + y * level.stride;
-                std::fill(row + span.begin, row + end + CanvasLevel::kPadding, 0.0F);
-            }
-            span = {};
-        });
+void Canvas::clear() noexcept { clear_from(0); }
+
+void Canvas::clear_from(std::size_t first_level) noexcept {
+    for (std::size_t l = first_level; l < levels_.size(); ++l) {
+        const CanvasLevel& level = levels_[l];
+        for_rows(-level.margin, level.height + level.margin, [&](int y) { clear_row(level, y); });
     }
 }
 
@@ -82,7 +87,13 @@ void Canvas::add_to(const ImageView& out) noexcept {
                  [&](int y) { kernels.refine_row(levels_[l], fine, y); });
     }
     const CanvasLevel* coarse = levels_.size() > 1 ? &levels_[1] : nullptr;
-    for_rows(0, out.height, [&](int y) { kernels.add_row(levels_[0], coarse, out, y); });
+    // The rows of the picture are cleared while they are in the cache.
+    const CanvasLevel& finest = levels_[0];
+    for_rows(-finest.margin, finest.height + finest.margin, [&](int y) {
+        if (y >= 0 && y < out.height) kernels.add_row(finest, coarse, out, y);
+        clear_row(finest, y);
+    });
+    clear_from(1);
 }
 
 }  // namespace aureole::lens

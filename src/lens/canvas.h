@@ -56,16 +56,17 @@ class Canvas {
     int levels() const noexcept { return static_cast<int>(levels_.size()); }
     const CanvasLevel& level(int l) const noexcept { return levels_[static_cast<std::size_t>(l)]; }
 
-    // Zeroes what was used since the last clear. Uses several threads.
+    // Forgets what was drawn. Uses several threads.
     void clear() noexcept;
     // Marks all of a level as used.
     void mark_used(int l) noexcept;
-    // out += the sum of all levels. `out` has 3 channels and the canvas's size. Uses the levels up:
-    // afterwards they hold nothing of use, and clear() comes before the next drawing. Uses several
-    // threads.
+    // out += the sum of all levels, and clears them. `out` has 3 channels and the canvas's size.
+    // Uses several threads.
     void add_to(const ImageView& out) noexcept;
 
   private:
+    void clear_from(std::size_t first_level) noexcept;
+
     std::vector<CanvasLevel> levels_;
     std::vector<Buffer> memory_;
     std::vector<std::vector<RowSpan>> used_;

@@ -67,8 +67,7 @@ TEST(Coating, AgreesWithParrattsRecursion) {
                 evanescent += front * std::sin(rad_from_deg(angle)) > layer.index;
             }
             for (double wavelength = 380; wavelength <= 770; wavelength += 39) {
-                const Reflectance exact =
-                    by_recursion(front, back, layers, wavelength, cosine);
+                const Reflectance exact = by_recursion(front, back, layers, wavelength, cosine);
                 const Reflectance got = reflectance(front, back, layers, wavelength, cosine);
                 ASSERT_NEAR(got.s, exact.s, 1e-12);
                 ASSERT_NEAR(got.p, exact.p, 1e-12);

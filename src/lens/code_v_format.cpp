@@ -161,7 +161,7 @@ class CodeVReader {
             if (mode[0] != 'Y' && mode[0] != 'N') place_.fail("RDM", mode, "must be Y or N");
             radii_ = mode[0] == 'Y';
         } else if (key == "TIT" || key == "TITLE") {
-            if (words.size() > 1) table_.lens.name = excerpt(words[1]);
+            if (words.size() > 1) table_.lens.name = words[1];
         } else if (key == "DIM") {
             const std::string unit = words.size() > 1 ? upper_case(words[1]) : "";
             if (unit != "M" && unit != "C" && unit != "I") {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMarginMm = 8;       // of the sheet
 constexpr double kImageLabelMm = 16;  // behind the image plane
-constexpr double kNumbersMm = 12;     // below the frame
+constexpr double kNumbersMm = 12;     // below the glass
 constexpr double kTallest = 0.62;     // height of the frame over the width of the sheet
 
 void validate(const Lens& lens, const CrossSectionOptions& options) {
@@ -56,12 +56,13 @@ struct Extent {
     double front_z_mm = 0;
     double back_z_mm = 0;
     double half_height_mm = 0;
+    double glass_half_height_mm = 0;
 };
 
 Extent extent_of(const Lens& lens, const CrossSectionOptions& options) {
     Extent extent;
     extent.back_z_mm = lens.sensor_z_mm();
-    double glass_mm = 0;
+    double& glass_mm = extent.glass_half_height_mm;
     for (const Face& face : lens.faces()) {
         for (const SectionPoint& point : face_curve(face, face.semi_aperture_mm)) {
             extent.front_z_mm = std::min(extent.front_z_mm, point.z_mm);
@@ -95,14 +96,17 @@ Plate lay_out(const Lens& lens, const CrossSectionOptions& options, Drawing& dra
     plate.scale =
         std::min(width / ((1 + kRunIn) * length), kTallest * options.sheet_width_mm / (2 * half));
     plate.half_height_mm = half;
+    plate.glass_half_height_mm = extent.glass_half_height_mm;
     plate.back_z_mm = extent.back_z_mm;
     plate.front_z_mm = extent.back_z_mm - width / plate.scale;
     plate.origin_x_mm = left - plate.scale * plate.front_z_mm;
     const double above = options.legend ? kTitleHeightMm : kMarginMm;
     plate.axis_y_mm = above + plate.scale * half;
     drawing.width_mm = options.sheet_width_mm;
-    drawing.height_mm = plate.axis_y_mm + plate.scale * half + kNumbersMm +
-                        (options.legend ? kScalesHeightMm : kMarginMm / 2);
+    drawing.height_mm =
+        plate.axis_y_mm +
+        std::max(plate.scale * half + 2, plate.scale * plate.glass_half_height_mm + kNumbersMm) +
+        (options.legend ? kScalesHeightMm : kMarginMm / 2);
     return plate;
 }
 

@@ -141,7 +141,7 @@ void draw_face_numbers(const Lens& lens, const CrossSectionOptions& options, con
     const auto faces = lens.faces();
     std::array<double, kRows> taken;
     taken.fill(-1e9);
-    const double top = plate.axis_y_mm + plate.scale * plate.half_height_mm;
+    const double top = plate.axis_y_mm + plate.scale * plate.glass_half_height_mm + 1;
     for (std::size_t k = 0; k < faces.size(); ++k) {
         const Face& face = faces[k];
         const auto is = [&](int other) { return static_cast<int>(k) == other; };
@@ -198,7 +198,7 @@ void draw_axis_and_image_plane(const Lens& lens, const Plate& plate, Drawing& dr
         }
     }
     DrawingText label;
-    label.position = {top.x_mm + 2.2, top.y_mm + 0.8};
+    label.position = {top.x_mm + 2.2, top.y_mm + (whole ? 0.8 : 2.5)};
     label.size_mm = 2.2;
     label.color = kGrey;
     label.text = fmt::format("{}{:.1f} mm", whole ? "" : "to ", height);

@@ -23,6 +23,7 @@ struct Plate {
     double front_z_mm = 0;  // the frame
     double back_z_mm = 0;
     double half_height_mm = 0;
+    double glass_half_height_mm = 0;  // of the largest face
 
     DrawingPoint at(const SectionPoint& point) const {
         return {origin_x_mm + scale * point.z_mm, axis_y_mm - scale * point.y_mm};

@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <sstream>
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
 #include <optional>
+#include <sstream>
 
 #include "aureole/base/error.h"
 

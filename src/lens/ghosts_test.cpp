@@ -21,8 +21,11 @@ TEST(Ghosts, NumberOfPairs) {
     const struct {
         const char* id;
         std::size_t front, rear;
-    } lenses[] = {{"heliar", 5, 3}, {"nikon-28-75", 14, 13}, {"biotar", 5, 5},
-                  {"canon-35-135", 13, 15}, {"biconvex", 0, 2}};
+    } lenses[] = {{"heliar", 5, 3},
+                  {"nikon-28-75", 14, 13},
+                  {"biotar", 5, 5},
+                  {"canon-35-135", 13, 15},
+                  {"biconvex", 0, 2}};
     for (const auto& expected : lenses) {
         SCOPED_TRACE(expected.id);
         const Lens lens(shipped_lens(expected.id));

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <utility>
 
 namespace aureole::lens {
 namespace {
@@ -10,6 +10,10 @@ namespace {
 constexpr Glass kCatalogue[] = {
 #include "lens/glass_catalogue.inc"
 };
+
+// Other names by which design programs know a glass.
+constexpr std::pair<std::string_view, std::string_view> kAliases[] = {
+    {"SILICA", "FUSED-SILICA"}, {"F_SILICA", "FUSED-SILICA"}, {"CAF2_SPECIAL", "CAF2"}};
 
 constexpr double square(double x) { return x * x; }
 
@@ -40,6 +44,9 @@ double Glass::abbe() const { return (index_d() - 1) / (index(kLineFNm) - index(k
 std::span<const Glass> glass_catalogue() { return kCatalogue; }
 
 const Glass* find_glass(std::string_view name) {
+    for (const auto& [alias, own] : kAliases) {
+        if (same_letters(alias, name)) name = own;
+    }
     for (const Glass& glass : kCatalogue) {
         if (same_letters(glass.name, name)) return &glass;
     }

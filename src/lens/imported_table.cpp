@@ -17,6 +17,8 @@ constexpr double kSlowFNumber = 1000;
 constexpr double kWideSemiApertureMm = 1e4;
 // Paraxial slopes of wider fields say nothing about where rays go.
 constexpr double kWidestHalfFieldDeg = 75;
+// Glass reaches beyond the beam: aberrations make the real one wider than the paraxial.
+constexpr double kApertureMargin = 1.05;
 
 std::string without_dashes(std::string_view name) {
     std::string plain = upper_case(name);
@@ -81,7 +83,8 @@ void estimate_apertures(Prescription& lens, const Lens& optics, double entrance_
         const double marginal = crossing.matrix.y.a * entrance_pupil_mm / 2;
         const double principal =
             s.stop ? 0 : (crossing.matrix.y.a * entrance + crossing.matrix.y.b) * slope;
-        const double height = std::abs(marginal) + std::abs(principal);
+        const double height =
+            (s.stop ? 1 : kApertureMargin) * (std::abs(marginal) + std::abs(principal));
         s.semi_aperture_mm = s.radius_mm == 0 ? height : std::min(height, std::abs(s.radius_mm));
         list += fmt::format("{}{} ({:.3g})", list.empty() ? "" : ", ", crossing.face + 1,
                             s.semi_aperture_mm);

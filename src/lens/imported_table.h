@@ -31,9 +31,9 @@ void scale(Surface& surface, double mm_per_unit);
 
 // Makes the stop a flat row of its own where the file marks a face of glass (on the air side, at
 // no distance), takes the f-number from the entrance pupil, and estimates the semi-apertures that
-// are missing: |marginal| + |principal ray| of the paraxial beam, clipped to the radius. All this
-// is told in the warnings. Throws FileError: what validate() refuses; a stop inside cemented glass;
-// missing semi-apertures without a pupil or f-number to estimate them from.
+// are missing: |marginal| + |principal ray| of the paraxial beam and 5 %, clipped to the radius.
+// All this is told in the warnings. Throws FileError: what validate() refuses; a stop inside
+// cemented glass; missing semi-apertures without a pupil or f-number to estimate them from.
 Prescription finished(ImportedTable table, const std::string& file);
 
 }  // namespace aureole::lens

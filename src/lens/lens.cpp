@@ -55,8 +55,8 @@ double entrance_height(const Tracer& tracer, int stop, double radius_mm, double 
 // distance and k = distance - length, the object is k - b in front of the first vertex, and
 // imaging, (a + b c)(k - b) + b0 + b d = 0, is quadratic in b:
 //     c b^2 - (c k + d - a) b - (a k + b0) = 0.
-// Of its two solutions, large and small image of the same two planes, the one that tends to the
-// rear focus for far objects.
+// Of its two solutions, enlarged and reduced image, the reduced one, which tends to the rear focus
+// for far objects. (Upright, it would belong to an object behind the front vertex.)
 double image_distance(const Matrix& m, double length_mm, double distance_mm) {
     const double k = distance_mm - length_mm;
     const double p = m.c * k + m.d - m.a;
@@ -64,8 +64,8 @@ double image_distance(const Matrix& m, double length_mm, double distance_mm) {
     if (under_root >= 0) {
         const double q = 0.5 * (p + std::copysign(std::sqrt(under_root), p));
         const double back = -(m.a * k + m.b) / q;
-        // The object must stand in front of the lens, and be the farther of the two.
-        if (m.c * k + m.a + m.d <= 0 && k - back > 0) return back;
+        const bool in_front = k - back > 0;
+        if (in_front) return back;
     }
     // Nearest: life-size, where the discriminant (c k + a + d)^2 - 4 is zero.
     const double nearest = length_mm - (2 + m.a + m.d) / m.c;
@@ -139,7 +139,9 @@ Lens::Lens(const Prescription& prescription, const LensSettings& settings)
             fmt::format("too small: a ray that enters {} mm from the axis misses the lens",
                         shown(entrance)));
     }
-    if (*solved > stop_face.semi_aperture_mm) {
+    // Printed f-numbers are rounded ones.
+    constexpr double kRounding = 1.01;
+    if (*solved > kRounding * stop_face.semi_aperture_mm) {
         warnings_.push_back(fmt::format(
             "surface {}: the stop's radius for f/{} is {} mm, more than the printed {} mm",
             stop_ + 1, shown(f_number_), shown(*solved), shown(stop_face.semi_aperture_mm)));

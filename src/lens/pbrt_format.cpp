@@ -2,12 +2,15 @@
 #include <utility>
 
 #include "aureole/lens/formats.h"
+#include "lens/format_encoding.h"
 #include "lens/format_text.h"
 
 namespace aureole::lens {
 
-Prescription parse_pbrt(std::string_view text, const std::string& file) {
-    require_size(text, file);
+Prescription parse_pbrt(std::string_view bytes, const std::string& file) {
+    require_size(bytes, file);
+    const std::string utf8 = utf8_text(bytes, file);
+    std::string_view text = utf8;
     Prescription lens;
     Place place{file};
     while (!text.empty()) {
@@ -17,7 +20,7 @@ Prescription parse_pbrt(std::string_view text, const std::string& file) {
         if (hash != std::string_view::npos) {
             const std::string_view comment = trimmed(line.substr(hash + 1));
             // The first comment is the title by custom.
-            if (lens.name.empty() && lens.surfaces.empty()) lens.name = excerpt(comment);
+            if (lens.name.empty() && lens.surfaces.empty()) lens.name = comment;
             line = line.substr(0, hash);
         }
         const auto words = words_in(line);

@@ -50,8 +50,7 @@ HWY_INLINE void go(Rays& rays, V t) {
 HWY_INLINE Hit meet_sphere(const RayStep& step, Rays& rays) {
     const V c = set(step.curvature);
     const V f = hn::Mul(c, hn::MulAdd(rays.x, rays.x, hn::Mul(rays.y, rays.y)));
-    const V g =
-        hn::NegMulAdd(c, hn::MulAdd(rays.x, rays.dx, hn::Mul(rays.y, rays.dy)), rays.dz);
+    const V g = hn::NegMulAdd(c, hn::MulAdd(rays.x, rays.dx, hn::Mul(rays.y, rays.dy)), rays.dz);
     const V under_root = hn::NegMulAdd(c, f, hn::Mul(g, g));
     rays.alive = hn::And(rays.alive, hn::Ge(under_root, hn::Zero(D())));
     Hit hit;
@@ -67,8 +66,8 @@ HWY_INLINE Hit meet_sphere(const RayStep& step, Rays& rays) {
 }
 
 HWY_INLINE Hit unit_normal(const Rays& rays, V nx, V ny, V nz) {
-    const V scale = hn::Div(
-        set(1), hn::Sqrt(hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz)))));
+    const V scale =
+        hn::Div(set(1), hn::Sqrt(hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz)))));
     Hit hit{hn::Mul(nx, scale), hn::Mul(ny, scale), hn::Mul(nz, scale), hn::Zero(D())};
     hit.cosine = hn::MulAdd(hit.nx, rays.dx, hn::MulAdd(hit.ny, rays.dy, hn::Mul(hit.nz, rays.dz)));
     return hit;
@@ -116,10 +115,8 @@ HWY_INLINE Hit meet_asphere(const RayStep& step, Rays& rays) {
     V ny = hn::Zero(D());
     V move = hn::Zero(D());
     for (int i = 0; i <= kIterations; ++i) {
-        const V r2 =
-            hn::MulAdd(hn::Mul(wx, rays.x), rays.x, hn::Mul(hn::Mul(wy, rays.y), rays.y));
-        const V under_root =
-            hn::NegMulAdd(hn::Mul(set(step.stretch), hn::Mul(c, c)), r2, set(1));
+        const V r2 = hn::MulAdd(hn::Mul(wx, rays.x), rays.x, hn::Mul(hn::Mul(wy, rays.y), rays.y));
+        const V under_root = hn::NegMulAdd(hn::Mul(set(step.stretch), hn::Mul(c, c)), r2, set(1));
         const M inside = hn::Gt(under_root, hn::Zero(D()));
         const V root = hn::Sqrt(hn::Max(under_root, set(1e-12F)));
         V height = hn::Div(hn::Mul(c, r2), hn::Add(set(1), root));
@@ -173,8 +170,7 @@ HWY_INLINE void turn(const RayStep& step, const Hit& hit, Rays& rays) {
         const V sine2 = hn::NegMulAdd(hit.cosine, hit.cosine, set(1));
         const V cos2 = hn::NegMulAdd(hn::Mul(ratio, ratio), sine2, set(1));
         rays.alive = hn::And(rays.alive, hn::Ge(cos2, hn::Zero(D())));
-        const V bend =
-            hn::NegMulAdd(ratio, hit.cosine, hn::Sqrt(hn::Max(cos2, hn::Zero(D()))));
+        const V bend = hn::NegMulAdd(ratio, hit.cosine, hn::Sqrt(hn::Max(cos2, hn::Zero(D()))));
         rays.dx = hn::MulAdd(bend, hit.nx, hn::Mul(ratio, rays.dx));
         rays.dy = hn::MulAdd(bend, hit.ny, hn::Mul(ratio, rays.dy));
         rays.dz = hn::MulAdd(bend, hit.nz, hn::Mul(ratio, rays.dz));
@@ -241,8 +237,7 @@ void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const R
                     u[k] = relative_x;
                     v[k] = relative_y;
                 } else {
-                    other[k] =
-                        hn::Max(other[k], iris_distance(d, iris, relative_x, relative_y));
+                    other[k] = hn::Max(other[k], iris_distance(d, iris, relative_x, relative_y));
                 }
                 turn(step, hit, rays[k]);
             }
@@ -345,13 +340,16 @@ void throughput(std::span<const RayStep> way, const RayBundle& bundle, float* to
     const int stride = ray_stride(bundle.columns);
     // Any direction across the light will do.
     const float* direction = bundle.direction;
-    const float length =
-        std::sqrt(direction[0] * direction[0] + direction[2] * direction[2]);
+    const float length = std::sqrt(direction[0] * direction[0] + direction[2] * direction[2]);
     for (int row = 0; row < bundle.rows; ++row) {
         for (int column = 0; column < stride; column += kLanes) {
             Rays rays = start(bundle, column, row);
-            Polarisation p{set(direction[2] / length),  hn::Zero(d), set(-direction[0] / length),
-                           set(0.5F), set(0.5F), hn::Zero(d)};
+            Polarisation p{set(direction[2] / length),
+                           hn::Zero(d),
+                           set(-direction[0] / length),
+                           set(0.5F),
+                           set(0.5F),
+                           hn::Zero(d)};
             for (const RayStep& step : way) {
                 with_shape(step, [&](auto shape) {
                     const Hit hit = meet<decltype(shape)::value>(step, rays);
@@ -360,9 +358,9 @@ void throughput(std::span<const RayStep> way, const RayBundle& bundle, float* to
                 });
             }
             const M alive = hn::And(rays.alive, hn::Gt(rays.dz, hn::Zero(d)));
-            hn::StoreU(hn::IfThenElseZero(alive, hn::Add(p.ee, p.pp)), d,
-                       to + static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) +
-                           column);
+            hn::StoreU(
+                hn::IfThenElseZero(alive, hn::Add(p.ee, p.pp)), d,
+                to + static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) + column);
         }
     }
 }

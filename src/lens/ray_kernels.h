@@ -21,14 +21,14 @@ struct RayStep {
     };
     Shape shape = Shape::kPlane;
     bool reflects = false;
-    int stops_left = -1;      // housings: -1; the stop: how often it will be met again
-    float distance_mm = 0;    // from the vertex before, or from z = 0
-    float curvature = 0;      // 1 / mm, as met
-    float stretch = 1;        // 1 + conic constant
-    float along_x = 1;        // 1 or 0: is the face curved along x, y
+    int stops_left = -1;    // housings: -1; the stop: how often it will be met again
+    float distance_mm = 0;  // from the vertex before, or from z = 0
+    float curvature = 0;    // 1 / mm, as met
+    float stretch = 1;      // 1 + conic constant
+    float along_x = 1;      // 1 or 0: is the face curved along x, y
     float along_y = 1;
-    float index_ratio = 1;    // before over after
-    float per_semi_aperture;  // 1 / mm; of the stop: 1 / its radius
+    float index_ratio = 1;                 // before over after
+    float per_semi_aperture;               // 1 / mm; of the stop: 1 / its radius
     float asphere[kMaxAsphereTerms] = {};  // as met
     // Reflectance for s and p light by the cosine of incidence, as met: kReflectanceSamples pairs
     // (s, p); see reflectance_table.h. Only for throughput().
@@ -68,7 +68,7 @@ struct RayFields {
 
 // What distance() of an iris needs; see iris.h.
 struct IrisField {
-    int blades = 0;  // 0: round
+    int blades = 0;                  // 0: round
     const float* normals = nullptr;  // u and v of each blade
     float apothem = 1;
     float blade_radius = 0;  // 0: straight

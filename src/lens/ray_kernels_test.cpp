@@ -57,9 +57,9 @@ void compare(const Lens& lens, const Bounces& bounces, double tan_x, double tan_
     for (int row = 0; row < rays.rows; ++row) {
         for (int column = 0; column < rays.columns; ++column) {
             const auto at = static_cast<std::size_t>(row * stride + column);
-            const Ray ray =
-                ray_from_light(tan_x, tan_y, rays.x_mm + static_cast<float>(column) * rays.step_x_mm,
-                               rays.y_mm + static_cast<float>(row) * rays.step_y_mm);
+            const Ray ray = ray_from_light(tan_x, tan_y,
+                                           rays.x_mm + static_cast<float>(column) * rays.step_x_mm,
+                                           rays.y_mm + static_cast<float>(row) * rays.step_y_mm);
             const TracedRay exact = tracer.trace(bounces, ray);
             const bool arrived = to.fields.clip[at] < kLostRay;
             if (arrived != (exact.fate == Fate::kArrived)) {
@@ -72,16 +72,16 @@ void compare(const Lens& lens, const Bounces& bounces, double tan_x, double tan_
             }
             if (!arrived || exact.housing_clip > 1.2 || exact.stop_clip > 1.2) continue;
             ++worst.passing;
-            worst.position_mm = std::max(
-                worst.position_mm,
-                std::hypot(to.fields.x[at] - exact.x_mm, to.fields.y[at] - exact.y_mm));
+            worst.position_mm =
+                std::max(worst.position_mm,
+                         std::hypot(to.fields.x[at] - exact.x_mm, to.fields.y[at] - exact.y_mm));
             const double r = lens.stop_radius_mm();
             worst.stop = std::max(worst.stop, std::hypot(to.fields.u[at] - exact.stop_x_mm / r,
                                                          to.fields.v[at] - exact.stop_y_mm / r));
-            const double clip = std::max<double>(
-                to.fields.clip[at], std::hypot(to.fields.u[at], to.fields.v[at]));
-            worst.clip = std::max(
-                worst.clip, std::abs(clip - std::max(exact.housing_clip, exact.stop_clip)));
+            const double clip =
+                std::max<double>(to.fields.clip[at], std::hypot(to.fields.u[at], to.fields.v[at]));
+            worst.clip = std::max(worst.clip,
+                                  std::abs(clip - std::max(exact.housing_clip, exact.stop_clip)));
             const double exact_energy = tracer.throughput(bounces, ray);
             worst.mean += exact_energy;
             worst.mean_error += energy[at] - exact_energy;

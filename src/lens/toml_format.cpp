@@ -40,7 +40,7 @@ class TableReader {
     }
     double number(const toml::node& node, std::string_view key) const {
         if (!node.is_number()) {
-            fail(node, fmt::format("{} is a {}: must be a number", key, type_of(node)));
+            fail(node, fmt::format("{} is {}: must be a number", key, type_of(node)));
         }
         const double value = *node.value<double>();
         if (!std::isfinite(value)) {
@@ -52,7 +52,7 @@ class TableReader {
         const toml::node* node = table_.get(key);
         if (!node) return "";
         if (!node->is_string()) {
-            fail(*node, fmt::format("{} is a {}: must be a string", key, type_of(*node)));
+            fail(*node, fmt::format("{} is {}: must be a string", key, type_of(*node)));
         }
         return node->ref<std::string>();
     }
@@ -60,7 +60,7 @@ class TableReader {
         const toml::node* node = table_.get(key);
         if (!node) return false;
         if (!node->is_boolean()) {
-            fail(*node, fmt::format("{} is a {}: must be true or false", key, type_of(*node)));
+            fail(*node, fmt::format("{} is {}: must be true or false", key, type_of(*node)));
         }
         return node->ref<bool>();
     }
@@ -70,7 +70,7 @@ class TableReader {
         if (!node) return values;
         const toml::array* array = node->as_array();
         if (!array) {
-            fail(*node, fmt::format("{} is a {}: must be a list of numbers", key, type_of(*node)));
+            fail(*node, fmt::format("{} is {}: must be a list of numbers", key, type_of(*node)));
         }
         for (const toml::node& item : *array) values.push_back(number(item, key));
         return values;
@@ -83,7 +83,7 @@ class TableReader {
         const toml::array* array = node->as_array();
         const auto is_table = [](const toml::node& item) { return item.is_table(); };
         if (!array || !std::all_of(array->begin(), array->end(), is_table)) {
-            fail(*node, fmt::format("{} is a {}: must be a list of tables", key, type_of(*node)));
+            fail(*node, fmt::format("{} is {}: must be a list of tables", key, type_of(*node)));
         }
         for (std::size_t i = 0; i < array->size(); ++i) {
             use(TableReader(*(*array)[i].as_table(), file_,
@@ -98,8 +98,22 @@ class TableReader {
     }
 
   private:
-    static std::string type_of(const toml::node& node) {
-        return std::string(toml::impl::node_type_friendly_names[static_cast<int>(node.type())]);
+    static const char* type_of(const toml::node& node) {
+        switch (node.type()) {
+            case toml::node_type::string:
+                return "a string";
+            case toml::node_type::integer:
+            case toml::node_type::floating_point:
+                return "a number";
+            case toml::node_type::boolean:
+                return "true or false";
+            case toml::node_type::array:
+                return "a list";
+            case toml::node_type::table:
+                return "a table";
+            default:
+                return "a date or time";
+        }
     }
 
     const toml::table& table_;

@@ -22,8 +22,8 @@ RayStep step_at(const Face& face, const Step& step, std::span<const double> inde
     out.along_x = face.profile == Profile::kCylinderY ? 0.0F : 1.0F;
     out.along_y = face.profile == Profile::kCylinderX ? 0.0F : 1.0F;
     const auto k = static_cast<std::size_t>(step.face);
-    out.index_ratio = static_cast<float>(step.backwards ? index[k + 1] / index[k]
-                                                        : index[k] / index[k + 1]);
+    out.index_ratio =
+        static_cast<float>(step.backwards ? index[k + 1] / index[k] : index[k] / index[k + 1]);
     out.per_semi_aperture = static_cast<float>(1 / face.semi_aperture_mm);
     for (std::size_t i = 0; i < std::min<std::size_t>(face.asphere.size(), kMaxAsphereTerms); ++i) {
         out.asphere[i] = static_cast<float>(sign * face.asphere[i]);
@@ -53,8 +53,8 @@ TracedWays::TracedWays(const Lens& lens, std::span<const Bounces> ghosts,
                 const Face& face = faces[static_cast<std::size_t>(step.face)];
                 RayStep out = step_at(face, step, indices[static_cast<std::size_t>(band)]);
                 // Only the way back runs towards the scene: `backwards` tells how light arrives.
-                out.distance_mm = static_cast<float>(step.backwards ? z_mm - face.z_mm
-                                                                    : face.z_mm - z_mm);
+                out.distance_mm =
+                    static_cast<float>(step.backwards ? z_mm - face.z_mm : face.z_mm - z_mm);
                 z_mm = face.z_mm;
                 if (face.stop) {
                     out.stops_left = --stops_left;

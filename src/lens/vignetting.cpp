@@ -102,39 +102,46 @@ struct Beam {
 };
 
 // Rows of rays from the middle outwards; where a row leaves the beam is interpolated between its
-// rays.
+// rays. Transmission, which changes slowly, is sampled by some of them.
 Beam measure(const Tracer& tracer, const Direction& light, const Box& box, int rays_per_side) {
     const int columns = (rays_per_side + 1) / 2;
     const double dx = box.half_x / (columns - 1);
     const double dy = (box.high_y - box.low_y) / rays_per_side;
+    constexpr int kEvery = 4;
     Beam beam;
+    int samples = 0;
     for (int j = 0; j < rays_per_side; ++j) {
         const double y = box.low_y + (j + 0.5) * dy;
         double last_out = kBlocked;
-        double last_share = 0;
         for (int i = 0; i < columns; ++i) {
             const Ray ray = light.ray(i * dx, y);
             const double out = clip(tracer, ray);
-            const double share = out <= 1 ? tracer.throughput(Bounces{}, ray) : 0;
-            if (i > 0 && std::min(out, last_out) <= 1) {
+            if (out <= 1 && i % kEvery == 0 && j % kEvery == 0) {
+                // The rays in the middle stand for one column, all others for two.
+                const int weight = i == 0 ? 1 : 2;
+                beam.transmission += weight * tracer.throughput(Bounces{}, ray);
+                samples += weight;
+            }
+            const double inner = std::min(out, last_out);
+            const double outer = std::max(out, last_out);
+            if (i > 0 && inner <= 1) {
                 double length = dx;
-                if (std::max(out, last_out) == kBlocked) {
+                if (outer == kBlocked) {
                     length = 0.5 * dx;
-                } else if (std::max(out, last_out) > 1) {
-                    length = dx * (1 - std::min(out, last_out)) / std::abs(out - last_out);
+                } else if (outer > 1) {
+                    length = dx * (1 - inner) / (outer - inner);
                 }
-                const bool both = std::max(out, last_out) <= 1;
                 beam.area_mm2 += length;
                 beam.middle_y_mm += length * y;
-                beam.transmission += length * (both ? 0.5 : 1.0) * (share + last_share);
             }
             last_out = out;
-            last_share = share;
         }
     }
     if (beam.area_mm2 > 0) {
         beam.middle_y_mm /= beam.area_mm2;
-        beam.transmission /= beam.area_mm2;
+        beam.transmission = samples > 0
+                                ? beam.transmission / samples
+                                : tracer.throughput(Bounces{}, light.ray(0, beam.middle_y_mm));
     }
     beam.area_mm2 *= 2 * dy;  // both halves
     return beam;
@@ -148,9 +155,7 @@ std::optional<Point> image_through(const Tracer& tracer, const Direction& light,
                                    const Point& stop) {
     constexpr double kNudgeMm = 1e-4;
     constexpr int kIterations = 8;
-    const auto at = [&](double x, double y) {
-        return tracer.trace(Bounces{}, light.ray(x, y));
-    };
+    const auto at = [&](double x, double y) { return tracer.trace(Bounces{}, light.ray(x, y)); };
     for (int i = 0;; ++i) {
         const TracedRay ray = at(start[0], start[1]);
         if (ray.fate != Fate::kArrived) return std::nullopt;

@@ -65,8 +65,10 @@ class ZmxReader {
         for (std::size_t i = 1; i + 1 < blocks_.size(); ++i) {
             table_.lens.surfaces.push_back(scaled(blocks_[i], i));
         }
-        if (field_is_angle_) table_.lens.field_deg = 2 * largest_field_;
-        if (field_is_angle_) table_.half_field_deg = largest_field_;
+        if (field_is_angle_) {
+            table_.half_field_deg = largest_field_;
+            table_.lens.field_deg = 2 * largest_field_;
+        }
         table_.entrance_pupil_mm *= mm_per_unit_;
         return finished(std::move(table_), place_.file);
     }
@@ -106,7 +108,7 @@ class ZmxReader {
         if (key == "MODE" && words.size() > 1 && upper_case(words[1]) != "SEQ") {
             place_.fail("MODE", words[1], "must be SEQ, sequential");
         } else if (key == "NAME") {
-            table_.lens.name = excerpt(trimmed(line.substr(line.find(words[0]) + 4)));
+            table_.lens.name = trimmed(line.substr(line.find(words[0]) + 4));
         } else if (key == "UNIT") {
             read_unit(words);
         } else if (key == "ENPD") {

@@ -11,13 +11,13 @@ namespace aureole::lens {
 struct Finding {
     enum class Kind {
         kFocalLength,   // computed and stated focal length differ by more than 2 %
-        kFNumber,       // the printed stop gives another f-number than stated, by more than 5 %
+        kFNumber,       // the printed stop gives another f-number (EFL / entrance pupil), by 5 %
         kSemiAperture,  // a semi-aperture above the radius of curvature
         kCrossing,      // neighbouring surfaces meet inside their clear apertures
         kNoDispersion,  // glass without Abbe number or catalogue name
         kDiameters,     // the column of semi-apertures looks like one of diameters
         kBackFocus,     // the printed last gap is off the computed one by more than 2 % of EFL
-        kTooDark,       // some other aperture, not the stop, limits the beam on the axis
+        kTooDark,       // another aperture limits the beam on the axis, by more than 1 % of it
         kParser,        // what the parser mended or ignored
     };
     Kind kind;

@@ -28,17 +28,23 @@ namespace aureole::lens {
 // the file, the line or surface number, the value and what is allowed; results pass validate().
 // What a parser ignores or mends is told in Prescription::warnings.
 
+// Unknown keys are errors.
 Prescription parse_toml(std::string_view text, const std::string& file);
-// Zemax .zmx, ASCII or UTF-16 (either byte order mark): SURF TYPE STANDARD, EVENASPH, CURV, CONI,
-// PARM, DISZ, GLAS (catalogue name, or model glass with its index and Abbe number), DIAM, STOP,
-// UNIT. Distances are scaled to mm. Object and image rows are dropped.
+// Zemax .zmx, ASCII, UTF-8 or UTF-16 (by its byte order mark): SURF with TYPE STANDARD or EVENASPH,
+// CURV, CONI, PARM 1 to 8 (a term of r^2 only where CURV is 0), DISZ, GLAS (catalogue name, or
+// model glass with its index and Abbe number), DIAM and CLAP (semi-diameters), STOP; UNIT, NAME,
+// ENPD, FNUM, field angles. Distances are scaled to mm. Object and image rows are dropped.
 Prescription parse_zmx(std::string_view bytes, const std::string& file);
 // pbrt-v3 and -v4 realistic camera .dat: rows of radius, thickness, index, aperture *diameter*, in
-// mm; radius 0 with index 0 or 1 is the stop.
-Prescription parse_pbrt(std::string_view text, const std::string& file);
-// CODE V .seq: RDY/RDM lens tables with S lines (radius or curvature, thickness, glass name or
-// six-digit code), STO, CIR, K, ASP with A..G, DIM; sequential surfaces only.
+// mm; radius 0 with index 0 or 1 in air is the stop; the first comment is the name.
+Prescription parse_pbrt(std::string_view bytes, const std::string& file);
+// CODE V .seq: S rows (radius or curvature by RDM, thickness, glass name or six-digit code), RDY,
+// CUY, THI, GLA, STO, CIR, K and A to G (of r^4 to r^16), of the last surface or of the one named;
+// TITLE, DIM, EPD, FNO, field angles. Centred rotational surfaces only.
 Prescription parse_code_v(std::string_view text, const std::string& file);
+// For .zmx and .seq: a stop marked on a face of glass becomes a flat row of its own beside it; the
+// f-number of an entrance pupil is taken as stated; semi-apertures that the file leaves to the
+// program are estimated from the paraxial beam, as the warnings say, or refused without a pupil.
 
 // By the file's extension: .toml, .zmx, .dat, .seq; throws FileError for any other.
 Prescription parse_prescription(std::string_view bytes, const std::string& file);

@@ -29,7 +29,8 @@ struct Glass {
 };
 
 std::span<const Glass> glass_catalogue();
-// By name, upper or lower case, "BK7" also finding "N-BK7"; nullptr if it is not there.
+// By name, upper or lower case; "BK7" also finds "N-BK7" (but "SF6", which is made with and without
+// lead, the leaded one), "SILICA" fused silica. nullptr if it is not there.
 const Glass* find_glass(std::string_view name);
 
 }  // namespace aureole::lens

@@ -29,7 +29,9 @@ struct Face {
     double conic = 0;
     std::vector<double> asphere;  // of r^4, r^6, ...
     Profile profile = Profile::kRotational;
-    double semi_aperture_mm = 0;  // clipped to |radius|; of the stop: as solved from the f-number
+    // Clipped to where the surface ends, |radius| of a sphere, |radius| / sqrt(1 + conic) of a
+    // conic; of the stop: as solved from the f-number.
+    double semi_aperture_mm = 0;
     bool stop = false;
     Coating coating;  // layers from the medium in front to the one behind
 };
@@ -50,6 +52,8 @@ class Lens {
     double sensor_z_mm() const noexcept { return sensor_z_mm_; }
 
     // Indices of the media at a wavelength (nm): [k] is in front of face k, [k + 1] behind it.
+    // Throw InvalidArgument where the curve of a glass ends. A glass of the catalogue has the curve
+    // of its maker, shifted to the index that the table gives at the d line.
     std::vector<double> indices(double wavelength_nm) const;
     // The same for one medium.
     double index(int medium, double wavelength_nm) const;

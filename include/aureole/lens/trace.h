@@ -51,7 +51,7 @@ class Tracer {
     Tracer(const Lens& lens, double wavelength_nm);
 
     // The way of `bounces` from the given ray. `path`, if given, receives the points at the faces
-    // and on the sensor, the origin first.
+    // and on the sensor, the origin first; of a ray that ends before, up to where it was refused.
     TracedRay trace(const Bounces& bounces, const Ray& ray,
                     std::vector<Vector>* path = nullptr) const;
     // The share of energy that is left of a ray of unpolarised light when it arrives: the product

@@ -1,0 +1,231 @@
+#include "lens/matrix_open_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "aureole/base/units.h"
+
+namespace aureole::lens {
+namespace {
+
+// A disc's half height squared at x is r^2 - (x - c)^2 = -x^2 + f(x), f(x) = 2 c x + r^2 - c^2, so
+// the disc that bounds the common area at x is the one with the least f: the lower envelope of
+// straight lines, found as convex hulls are.
+// Where the lines of two discs meet; centres differ.
+double crossing(const LineDisc& a, const LineDisc& b) {
+    return ((a.radius * a.radius - a.center * a.center) -
+            (b.radius * b.radius - b.center * b.center)) /
+           (2 * (b.center - a.center));
+}
+
+// Area of a disc between two distances from its centre, and its first moment about that.
+struct Slice {
+    double area;
+    double moment;
+};
+Slice slice(double radius, double from, double to) {
+    const double r2 = radius * radius;
+    const double low = std::clamp(from / radius, -1.0, 1.0);
+    const double high = std::clamp(to / radius, -1.0, 1.0);
+    const double low_root = std::sqrt(1 - low * low);
+    const double high_root = std::sqrt(1 - high * high);
+    const auto angle = [](double sine) {
+        return sine <= -1 ? -kPi / 2 : sine >= 1 ? kPi / 2 : std::asin(sine);
+    };
+    return {r2 * (high * high_root - low * low_root + angle(high) - angle(low)),
+            2.0 / 3.0 * r2 * radius *
+                (low_root * low_root * low_root - high_root * high_root * high_root)};
+}
+
+}  // namespace
+
+CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scratch) noexcept {
+    CommonArea common;
+    common.low = -1e300;
+    common.high = 1e300;
+    for (const LineDisc& disc : discs) {
+        common.low = std::max(common.low, disc.center - disc.radius);
+        common.high = std::min(common.high, disc.center + disc.radius);
+    }
+    if (!(common.low < common.high)) return common;
+    // From left to right the centres of the bounding discs fall.
+    std::size_t size = 0;
+    for (std::size_t i = discs.size(); i-- > 0;) {
+        const LineDisc& disc = discs[i];
+        bool needed = true;
+        while (size > 0) {
+            const LineDisc& last = scratch[size - 1];
+            if (last.center == disc.center) {
+                if (last.radius <= disc.radius) {
+                    needed = false;
+                    break;
+                }
+            } else if (size == 1 ||
+                       crossing(last, disc) > crossing(scratch[size - 2], last)) {
+                break;
+            }
+            --size;
+        }
+        if (needed) scratch[size++] = disc;
+    }
+    double moment = 0;
+    double from = common.low;
+    for (std::size_t i = 0; i < size; ++i) {
+        const double to = i + 1 < size ? std::min(common.high, crossing(scratch[i], scratch[i + 1]))
+                                       : common.high;
+        if (!(to > from)) continue;
+        const LineDisc& disc = scratch[i];
+        const Slice piece = slice(disc.radius, from - disc.center, to - disc.center);
+        common.area += piece.area;
+        moment += piece.moment + disc.center * piece.area;
+        if (common.edges < CommonArea::kMaxEdges) common.edge[common.edges++] = disc.clip;
+        from = to;
+    }
+    common.area = std::max(common.area, 0.0);
+    common.middle = common.area > 0 ? std::clamp(moment / common.area, common.low, common.high)
+                                    : 0.5 * (common.low + common.high);
+    return common;
+}
+
+namespace {
+
+constexpr int kLines = 64;     // where only edges matter
+constexpr int kSamples = 20;   // per side, where pictures do
+
+struct Interval {
+    double low = -1e300;
+    double high = 1e300;
+    void cut(double from, double to) {
+        low = std::max(low, from);
+        high = std::min(high, to);
+    }
+    void clear() { high = low; }
+};
+
+// The chord of a line of constant v in an ellipse.
+void cut_by_ellipse(Interval& chord, double u0, double v0, double ru, double rv, double v) {
+    const double t = (v - v0) / rv;
+    const double half = t * t < 1 ? std::abs(ru) * std::sqrt(1 - t * t) : -1;
+    half < 0 ? chord.clear() : chord.cut(u0 - half, u0 + half);
+}
+
+// Smooth corners and pictures have no simple chords.
+bool is_sampled(const Iris& iris) {
+    return iris.is_image() || (iris.shape().blades > 0 && iris.shape().smoothing > 0);
+}
+
+// The same in the iris, placed like a clip, with sharp corners.
+void cut_by_iris(Interval& chord, const Iris& iris, double u0, double v0, double ru, double rv,
+                 double v) {
+    if (iris.shape().blades == 0 || is_sampled(iris)) {
+        // What is sampled fades over the width of a sample.
+        const double radius = iris.outer_radius() + (is_sampled(iris) ? 0.1 : 0);
+        cut_by_ellipse(chord, u0, v0, radius * ru, radius * rv, v);
+        return;
+    }
+    const double own_v = (v - v0) / rv;
+    Interval own;
+    const double back = iris.blade_radius() - iris.apothem();
+    for (int b = 0; b < iris.shape().blades; ++b) {
+        const double nu = static_cast<double>(iris.blades()[b].normal_u);
+        const double nv = static_cast<double>(iris.blades()[b].normal_v);
+        if (iris.blade_radius() > 0) {
+            cut_by_ellipse(own, -back * nu, -back * nv, iris.blade_radius(), iris.blade_radius(),
+                           own_v);
+            continue;
+        }
+        const double room = iris.apothem() - nv * own_v;
+        if (std::abs(nu) < 1e-9) {
+            if (room < 0) own.clear();
+        } else {
+            nu > 0 ? own.cut(-1e300, room / nu) : own.cut(room / nu, 1e300);
+        }
+    }
+    if (own.low >= own.high) return chord.clear();
+    const double a = u0 + ru * own.low;
+    const double b = u0 + ru * own.high;
+    chord.cut(std::min(a, b), std::max(a, b));
+}
+
+}  // namespace
+
+OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
+                   std::span<const MatrixGhost::Clip> clips) noexcept {
+    const Iris& iris = *pupil.iris;
+    const bool smooth = is_sampled(iris) && !iris.is_image();
+    const double reach = static_cast<double>(pupil.outer_radius(0)) + (smooth ? 0.1 : 0);
+    Interval range = {-reach, reach};
+    for (const MatrixGhost::Clip& clip : clips) {
+        const double outer = static_cast<double>(std::abs(clip.rv)) *
+                             (clip.iris ? iris.outer_radius() + (smooth ? 0.1 : 0) : 1.0);
+        range.cut(static_cast<double>(clip.v0) - outer, static_cast<double>(clip.v0) + outer);
+    }
+    OpenArea open;
+    if (!(range.low < range.high)) return open;
+    const bool sampled = pupil.has_pictures() || smooth;
+    const int lines = sampled ? kSamples : kLines;
+    const double half_height = 0.5 * (range.high - range.low);
+    // Lines at the midpoints of equal steps of t, v = sin t: chords that shrink to 0 at the ends as
+    // square roots do are then smooth in t.
+    for (int i = 0; i < lines; ++i) {
+        const double t = kPi * ((i + 0.5) / lines - 0.5);
+        const double v = range.low + half_height * (1 + std::sin(t));
+        const double weight = half_height * std::cos(t) * kPi / lines;
+        Interval chord;
+        if (pupil.texture != nullptr) {
+            chord.cut(-reach, reach);
+        } else {
+            cut_by_iris(chord, iris, 0, 0, 1, 1, v);
+        }
+        for (const MatrixGhost::Clip& clip : clips) {
+            const double u0 = static_cast<double>(clip.u0);
+            const double v0 = static_cast<double>(clip.v0);
+            const double ru = static_cast<double>(clip.ru);
+            const double rv = static_cast<double>(clip.rv);
+            clip.iris ? cut_by_iris(chord, iris, u0, v0, ru, rv, v)
+                      : cut_by_ellipse(chord, u0, v0, ru, rv, v);
+        }
+        const double length = chord.high - chord.low;
+        if (!(length > 0)) continue;
+        if (!sampled) {
+            open.area += weight * length;
+            open.middle_u += weight * length * 0.5 * (chord.low + chord.high);
+            open.middle_v += weight * length * v;
+            continue;
+        }
+        for (int k = 0; k < kSamples; ++k) {
+            const double u = chord.low + (k + 0.5) / kSamples * length;
+            const auto fu = static_cast<float>(u);
+            const auto fv = static_cast<float>(v);
+            const auto footprint = static_cast<float>(length / kSamples);
+            float share = pupil.pictures(entrance, fu, fv, footprint);
+            const auto through_iris = [&](float iu, float iv, float scale) {
+                share *= pupil.iris_picture(iu, iv, footprint / scale);
+                if (!smooth) return;
+                const float outside = (iris.distance(iu, iv) - 1) * scale / footprint;
+                share *= std::clamp(0.5F - outside, 0.0F, 1.0F);
+            };
+            if (pupil.texture == nullptr && smooth) {
+                const float outside = (iris.distance(fu, fv) - 1) / footprint;
+                share *= std::clamp(0.5F - outside, 0.0F, 1.0F);
+            }
+            for (const MatrixGhost::Clip& clip : clips) {
+                if (!clip.iris) continue;
+                through_iris((fu - clip.u0) / clip.ru, (fv - clip.v0) / clip.rv,
+                             std::abs(clip.ru));
+            }
+            const double part = weight * length / kSamples * static_cast<double>(share);
+            open.area += part;
+            open.middle_u += part * u;
+            open.middle_v += part * v;
+        }
+    }
+    if (open.area > 0) {
+        open.middle_u /= open.area;
+        open.middle_v /= open.area;
+    }
+    return open;
+}
+
+}  // namespace aureole::lens

@@ -1,0 +1,243 @@
+#include "lens/matrix_placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "aureole/base/units.h"
+
+namespace aureole::lens {
+namespace {
+
+// A light whose image is so much blurred that no edge of a ghost is left of full height is drawn as
+// a spot: half the width of the edge over the radius of what is open.
+constexpr double kWidestEdge = 0.5;
+
+std::vector<MatrixPath> paths_of(const Lens& lens, const Iris& iris, const Film& film,
+                                 std::span<const Bounces> ghosts) {
+    std::vector<MatrixPath> paths;
+    for (const Bounces& bounces : ghosts) {
+        paths.push_back(matrix_path(lens, iris, film, bounces));
+    }
+    return paths;
+}
+
+void block(MatrixGhost& ghost) {
+    ghost.u_per_px = ghost.v_per_px = 0;
+    ghost.clip_count = 0;
+    ghost.energy = ghost.radius_px = ghost.open_radius_px = 0;
+    std::fill(ghost.radiance, ghost.radiance + 3, 0.0F);
+}
+
+// The half width of a box of the same second moment.
+double half_width(double moment) { return std::sqrt(3 * std::max(moment, 0.0)); }
+
+}  // namespace
+
+MatrixPlacement::MatrixPlacement(const Lens& lens, const Film& film, const Pupil& pupil,
+                                 std::span<const Bounces> ghosts)
+    : pupil_(pupil),
+      film_(film),
+      paths_(paths_of(lens, *pupil.iris, film, ghosts)),
+      colors_(lens, *pupil.iris, paths_) {
+    std::size_t most = 0;
+    for (const MatrixPath& path : paths_) most = std::max(most, path.clips.size());
+    discs_.resize(most + 1);
+    scratch_.resize(most + 1);
+    Pupil clean = pupil;
+    clean.occluder = nullptr;
+    whole_ = open_area(clean, {}, {});
+    if (clean.texture == nullptr) whole_ = {kPi, 0, 0};  // by definition (iris.h)
+}
+
+void MatrixPlacement::place(const sources::Light& light, std::span<MatrixGhost> placements,
+                            std::span<Entrance> entrances) noexcept {
+    Source source = {};
+    source.slope_x = -light.tan_x;
+    source.slope_y = -light.tan_y;
+    source.slope = std::hypot(light.tan_x, light.tan_y);
+    source.angle_rad = std::atan(source.slope);
+    const double cosine = 1 / std::sqrt(1 + source.slope * source.slope);
+    bool seen = source.slope <= kLargestSlope;
+    bool bright = false;
+    for (std::size_t c = 0; c < 3; ++c) {
+        source.irradiance[c] = light.solid_angle_sr * cosine *
+                               static_cast<double>(light.radiance[c]) /
+                               film_.irradiance_per_radiance;
+        seen = seen && std::isfinite(source.irradiance[c]) && source.irradiance[c] >= 0;
+        bright = bright || source.irradiance[c] > 0;
+    }
+    source.moment_xx = light.moment_xx;
+    source.moment_xy = light.moment_xy;
+    source.moment_yy = light.moment_yy;
+    source.extended = light.moment_xx > 0 || light.moment_yy > 0;
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        if (seen && bright) {
+            place_one(source, i, placements[i], entrances[i]);
+        } else {
+            block(placements[i]);
+        }
+    }
+}
+
+MatrixGhost::Clip MatrixPlacement::clip_of(const Source& source, const MatrixPath& path,
+                                           const ClipPath& clip) {
+    MatrixGhost::Clip result;
+    result.u0 = static_cast<float>(clip.gamma_x * source.slope_x);
+    result.v0 = static_cast<float>(clip.gamma_y * source.slope_y);
+    result.ru = static_cast<float>(clip.radius_u);
+    result.rv = static_cast<float>(clip.radius_v);
+    result.iris = clip.iris;
+    result.edge = 0;
+    if (source.extended) {
+        const double moment = 0.5 * (clip.shift_x * clip.shift_x * source.moment_xx +
+                                     clip.shift_y * clip.shift_y * source.moment_yy);
+        const double per_px = std::sqrt(std::abs(path.u_per_px * path.v_per_px /
+                                                 (clip.radius_u * clip.radius_v)));
+        result.edge = static_cast<float>(half_width(moment) * per_px);
+    }
+    return result;
+}
+
+// In a system that is the same in both meridians all centres lie on the line through the iris along
+// the light's slope. False: nothing is open. `open` has the pupil's area unless it is left < 0.
+bool MatrixPlacement::open_round(const Source& source, const MatrixPath& path, MatrixGhost& ghost,
+                                 OpenArea& open) noexcept {
+    if (source.slope >= path.largest_slope) return false;
+    if (source.slope <= path.free_slope) {
+        if (pupil_.occluder == nullptr) open = whole_;
+        return true;
+    }
+    const Iris& iris = *pupil_.iris;
+    const std::size_t count = path.clips.size();
+    std::size_t size = 0;
+    bool iris_listed = false;
+    for (std::size_t k = 0; k <= count; ++k) {
+        if (!iris_listed && (k == count || path.clips[k].gamma_x >= 0)) {
+            const double reach = pupil_.texture != nullptr ? pupil_.outer_radius(0)
+                                                           : iris.outer_radius();
+            discs_[size++] = {0, reach, -1};
+            iris_listed = true;
+        }
+        if (k == count) break;
+        const ClipPath& clip = path.clips[k];
+        discs_[size++] = {clip.gamma_x * source.slope, clip.outer(iris), static_cast<int>(k)};
+    }
+    const CommonArea common = common_area({discs_.data(), size}, scratch_);
+    if (!(common.area > 0)) return false;
+    // Of more clips than there is room for, the nearest to the axis of the iris are kept.
+    const auto reach_of = [&](int k) {
+        const ClipPath& clip = path.clips[static_cast<std::size_t>(k)];
+        return clip.outer(iris) - std::abs(clip.gamma_x) * source.slope;
+    };
+    int nearest[MatrixGhost::kMaxClips];
+    for (int e = 0; e < common.edges; ++e) {
+        const int k = common.edge[e];
+        if (k < 0) continue;
+        int at = ghost.clip_count;
+        while (at > 0 && reach_of(nearest[at - 1]) > reach_of(k)) --at;
+        if (at == MatrixGhost::kMaxClips) continue;
+        ghost.clip_count = std::min(ghost.clip_count + 1, MatrixGhost::kMaxClips);
+        for (int j = ghost.clip_count - 1; j > at; --j) nearest[j] = nearest[j - 1];
+        nearest[at] = k;
+    }
+    for (int j = 0; j < ghost.clip_count; ++j) {
+        ghost.clips[j] = clip_of(source, path, path.clips[static_cast<std::size_t>(nearest[j])]);
+    }
+    if (iris.shape().blades == 0 && !pupil_.has_pictures()) {
+        open.area = common.area;
+        open.middle_u = common.middle * source.slope_x / source.slope;
+        open.middle_v = common.middle * source.slope_y / source.slope;
+    } else if (ghost.clip_count == 0 && pupil_.occluder == nullptr) {
+        open = whole_;
+    }
+    return true;
+}
+
+// Behind cylinders housings are ellipses anywhere; those that may cut are found one by one.
+bool MatrixPlacement::open_stretched(const Source& source, const MatrixPath& path,
+                                     MatrixGhost& ghost) noexcept {
+    const double reach = static_cast<double>(pupil_.outer_radius(0));
+    double farthest[MatrixGhost::kMaxClips];
+    for (const ClipPath& path_clip : path.clips) {
+        const MatrixGhost::Clip clip = clip_of(source, path, path_clip);
+        const double far =
+            (std::hypot(clip.u0 / clip.ru, clip.v0 / clip.rv) +
+             reach / static_cast<double>(std::min(std::abs(clip.ru), std::abs(clip.rv)))) /
+            (clip.iris ? std::max(pupil_.iris->inner_radius(), 1e-3) : 1);
+        if (far <= 1) continue;
+        int at = ghost.clip_count;
+        while (at > 0 && farthest[at - 1] < far) --at;
+        if (at == MatrixGhost::kMaxClips) continue;
+        ghost.clip_count = std::min(ghost.clip_count + 1, MatrixGhost::kMaxClips);
+        for (int j = ghost.clip_count - 1; j > at; --j) {
+            farthest[j] = farthest[j - 1];
+            ghost.clips[j] = ghost.clips[j - 1];
+        }
+        farthest[at] = far;
+        ghost.clips[at] = clip;
+    }
+    return true;
+}
+
+void MatrixPlacement::blur(const Source& source, const MatrixPath& path, MatrixGhost& ghost) {
+    const double xx = path.shift_x * path.shift_x * source.moment_xx;
+    const double yy = path.shift_y * path.shift_y * source.moment_yy;
+    const double half = half_width(0.5 * (xx + yy));
+    ghost.edge = static_cast<float>(half * std::sqrt(std::abs(path.u_per_px * path.v_per_px)));
+    const auto radius = static_cast<double>(ghost.open_radius_px);
+    ghost.spot = half > kWidestEdge * radius;
+    if (!ghost.spot) return;
+    // Light and ghost are convolved, so their second moments add up.
+    ghost.spot_xx = static_cast<float>(xx + radius * radius / 4);
+    ghost.spot_yy = static_cast<float>(yy + radius * radius / 4);
+    // Both shifts are of slopes, whose signs are those of the light's tangents turned.
+    ghost.spot_xy = static_cast<float>(path.shift_x * path.shift_y * source.moment_xy);
+}
+
+void MatrixPlacement::place_one(const Source& source, std::size_t index, MatrixGhost& ghost,
+                                Entrance& entrance) noexcept {
+    const MatrixPath& path = paths_[index];
+    const double center_x = film_.axis_x + path.shift_x * source.slope_x;
+    const double center_y = film_.axis_y + path.shift_y * source.slope_y;
+    ghost.center_x = static_cast<float>(center_x);
+    ghost.center_y = static_cast<float>(center_y);
+    ghost.u_per_px = static_cast<float>(path.u_per_px);
+    ghost.v_per_px = static_cast<float>(path.v_per_px);
+    ghost.clip_count = 0;
+    ghost.edge = 0;
+    ghost.spot = false;
+    entrance = {static_cast<float>(path.entrance_shift_x * source.slope_x),
+                static_cast<float>(path.entrance_x),
+                static_cast<float>(path.entrance_shift_y * source.slope_y),
+                static_cast<float>(path.entrance_y)};
+    OpenArea open = {-1, 0, 0};
+    const bool passes = path.round ? open_round(source, path, ghost, open)
+                                   : open_stretched(source, path, ghost);
+    if (!passes) return block(ghost);
+    if (open.area < 0) {
+        open = open_area(pupil_, entrance,
+                         {ghost.clips, static_cast<std::size_t>(ghost.clip_count)});
+    }
+    if (!(open.area > 0)) return block(ghost);
+
+    // Light that enters through an area of the front arrives on one of the picture.
+    const double unit_px2 = 1 / std::abs(path.u_per_px * path.v_per_px);
+    const double unit_mm2 = std::abs(path.entrance_x * path.entrance_y);
+    const double concentration = unit_mm2 / (unit_px2 * film_.mm_per_px * film_.mm_per_px);
+    const std::array<double, 3> color = colors_.at(index, source.angle_rad);
+    double sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double radiance = source.irradiance[c] * color[c] * concentration;
+        ghost.radiance[c] = static_cast<float>(radiance);
+        sum += radiance;
+    }
+    const double area_px2 = open.area * unit_px2;
+    ghost.energy = static_cast<float>(sum * area_px2);
+    ghost.radius_px = static_cast<float>(std::sqrt(unit_px2));
+    ghost.open_x = static_cast<float>(center_x + open.middle_u / path.u_per_px);
+    ghost.open_y = static_cast<float>(center_y + open.middle_v / path.v_per_px);
+    ghost.open_radius_px = static_cast<float>(std::sqrt(area_px2 / kPi));
+    if (source.extended) blur(source, path, ghost);
+}
+
+}  // namespace aureole::lens

@@ -1,0 +1,53 @@
+// From a light to where its ghosts are and how bright.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lens/matrix_colors.h"
+#include "lens/matrix_ghosts.h"
+#include "lens/matrix_open_area.h"
+#include "lens/matrix_path.h"
+#include "lens/matrix_pupil.h"
+
+namespace aureole::lens {
+
+class MatrixPlacement {
+  public:
+    // `pupil` must live as long.
+    MatrixPlacement(const Lens& lens, const Film& film, const Pupil& pupil,
+                    std::span<const Bounces> ghosts);
+
+    // Allocates nothing. `placements` and `entrances`: one per ghost.
+    void place(const sources::Light& light, std::span<MatrixGhost> placements,
+               std::span<Entrance> entrances) noexcept;
+
+    const MatrixColors& colors() const { return colors_; }
+
+  private:
+    // What all ghosts of one light share.
+    struct Source {
+        double slope_x, slope_y;  // of its rays
+        double slope, angle_rad;
+        double irradiance[3];  // on the front, per that of the film
+        double moment_xx, moment_xy, moment_yy;
+        bool extended;
+    };
+    void place_one(const Source& source, std::size_t index, MatrixGhost& ghost,
+                   Entrance& entrance) noexcept;
+    bool open_round(const Source& source, const MatrixPath& path, MatrixGhost& ghost,
+                    OpenArea& open) noexcept;
+    bool open_stretched(const Source& source, const MatrixPath& path, MatrixGhost& ghost) noexcept;
+    static MatrixGhost::Clip clip_of(const Source& source, const MatrixPath& path,
+                                     const ClipPath& clip);
+    static void blur(const Source& source, const MatrixPath& path, MatrixGhost& ghost);
+
+    const Pupil& pupil_;
+    Film film_;
+    std::vector<MatrixPath> paths_;
+    MatrixColors colors_;
+    std::vector<LineDisc> discs_, scratch_;
+    OpenArea whole_;  // of a ghost that nothing clips, without dirt
+};
+
+}  // namespace aureole::lens

@@ -1,0 +1,47 @@
+// How a diffraction pattern depends on direction far from the axis.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "aureole/base/buffer.h"
+
+namespace aureole::lens {
+
+// |F|^2 of a square of samples around the axis: sample (half, half) of 2 half x 2 half is the axis.
+struct AxisSquare {
+    int half = 0;
+    Buffer power;
+    std::size_t side() const { return 2 * static_cast<std::size_t>(half); }
+    float* row(std::size_t j) { return power.data() + j * side(); }
+    const float* row(std::size_t j) const { return power.data() + j * side(); }
+};
+
+// What an opening with edges does far from the axis: energy per sample p(phi) / rho^3 at rho
+// samples from the axis in direction phi. p repeats after a half turn.
+class AngularProfile {
+  public:
+    AngularProfile() = default;
+    // Fitted to the pattern between half of `end` and `end`: the law holds the energy of that ring.
+    static AngularProfile of(const AxisSquare& pattern, double end);
+
+    // Integral of p over the full turn.
+    double turn() const;
+    void multiply(double factor);
+    // Mean of p over a square seen from the axis: one whose sides, projected across the line of
+    // sight, subtend `side_a` and `side_b` radians (the projection is a trapezium, the convolution
+    // of two boxes).
+    double over(double phi, double side_a, double side_b) const;
+
+  private:
+    explicit AngularProfile(const std::vector<double>& values);
+    // p - mean over one bin, its integral and the integral of that. All repeat.
+    struct Bin {
+        double value, first, second;
+    };
+    double second_integral(double bins) const;
+    std::vector<Bin> bins_;  // bin b is centred on b pi / size
+    double mean_ = 0;
+};
+
+}  // namespace aureole::lens
