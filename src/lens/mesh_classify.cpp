@@ -168,6 +168,7 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
     std::fill(mesh.smooth, mesh.smooth + s * mesh.rows, 0.0F);
+    std::fill(mesh.radiance, mesh.radiance + s * mesh.rows, 0.0F);
     weigh_facets(mesh, state, mesh.radiance, mesh.share);
 
     // Radiance of facets, and what makes their energy that of the cells.
@@ -178,22 +179,22 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
             const std::ptrdiff_t at = row * s + column;
             const V smooth = load(mesh.smooth + at);
             const V area = hn::Max(hn::Abs(load(mesh.radiance + at)), set(1e-6F));
-            hn::StoreU(hn::IfThenElseZero(hn::Gt(smooth, hn::Zero(d)),
-                                          hn::Div(load(mesh.power + at), area)),
-                       d, mesh.radiance + at);
+            hn::StoreU(hn::Div(hn::Mul(smooth, load(mesh.power + at)), area), d,
+                       mesh.radiance + at);
         }
     }
-    const auto triangle = [&](std::ptrdiff_t a, std::ptrdiff_t b, std::ptrdiff_t c) {
-        const auto x = [&](std::ptrdiff_t k) {
-            return hn::Sub(load(mesh.x + k), load(mesh.x + a));
-        };
-        const auto y = [&](std::ptrdiff_t k) {
-            return hn::Sub(load(mesh.y + k), load(mesh.y + a));
-        };
-        const V twice = hn::Abs(hn::MulSub(x(b), y(c), hn::Mul(x(c), y(b))));
-        return hn::Mul(hn::Mul(twice, set(1.0F / 6)),
-                       hn::Add(load(mesh.radiance + a),
-                               hn::Add(load(mesh.radiance + b), load(mesh.radiance + c))));
+    // Energy of a triangle of each cell, as it is drawn and as it should be; twice and three times.
+    const auto sum_triangle = [&](std::ptrdiff_t a, std::ptrdiff_t b, std::ptrdiff_t c, M which) {
+        const auto x = [&](std::ptrdiff_t k) { return hn::Sub(load(mesh.x + k), load(mesh.x + a)); };
+        const auto y = [&](std::ptrdiff_t k) { return hn::Sub(load(mesh.y + k), load(mesh.y + a)); };
+        const auto sum = [&](auto&& value) { return hn::Add(value(a), hn::Add(value(b), value(c))); };
+        const V area = hn::Abs(hn::MulSub(x(b), y(c), hn::Mul(x(c), y(b))));
+        const V radiance = sum([&](std::ptrdiff_t k) { return load(mesh.radiance + k); });
+        const V power = sum([&](std::ptrdiff_t k) {
+            return hn::Mul(load(mesh.smooth + k), load(mesh.power + k));
+        });
+        given = hn::Add(given, hn::IfThenElseZero(which, hn::Mul(area, radiance)));
+        wanted = hn::Add(wanted, hn::IfThenElseZero(which, power));
     };
     int count = 0;
     for (int row = 1; row + 2 < mesh.rows; ++row) {
@@ -227,15 +228,8 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
                 if (hn::AllFalse(d, drawn)) continue;
                 if (!hn::AllFalse(d, faceted)) {
                     any_facets = true;
-                    const V mean = hn::Mul(
-                        set(0.25F),
-                        hn::Add(hn::Add(load(mesh.power + at), load(mesh.power + at + 1)),
-                                hn::Add(load(mesh.power + at + s), load(mesh.power + at + s + 1))));
-                    const M whole = hn::And(faceted, hn::Ge(smooth.low, set(1)));
-                    const V both = hn::Add(triangle(at, at + 1, at + s + 1),
-                                           triangle(at, at + s + 1, at + s));
-                    wanted = hn::Add(wanted, hn::IfThenElseZero(whole, mean));
-                    given = hn::Add(given, hn::IfThenElseZero(whole, both));
+                    sum_triangle(at, at + 1, at + s + 1, faceted);
+                    sum_triangle(at, at + s, at + s + 1, faceted);
                 }
                 if (!hn::AllFalse(d, pieced)) {
                     any_pieces = true;
@@ -266,7 +260,7 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
             if (any_pieces) {
                 const auto parts = [](V change) {
                     return static_cast<std::int16_t>(
-                        std::clamp(std::ceil(1.05F * highest(change)), 1.0F, kMostPieces));
+                        std::clamp(std::ceil(1.4F * highest(change)), 1.0F, kMostPieces));
                 };
                 pieces.pieces_i = parts(along);
                 pieces.pieces_j = parts(across);
@@ -277,8 +271,7 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
     const float sum = hn::GetLane(hn::SumOfLanes(d, given));
     const float scale = sum > 0 ? hn::GetLane(hn::SumOfLanes(d, wanted)) / sum : 1;
     for (std::ptrdiff_t k = 0; k < s * mesh.rows; k += kLanes) {
-        const V radiance = hn::Mul(load(mesh.radiance + k), load(mesh.smooth + k));
-        hn::StoreU(hn::Mul(set(scale), radiance), d, mesh.radiance + k);
+        hn::StoreU(hn::Mul(set(scale), load(mesh.radiance + k)), d, mesh.radiance + k);
     }
     return count;
 }

@@ -55,7 +55,8 @@ struct Line {
     HWY_ALIGN float xj[kLine];  // per piece across
     HWY_ALIGN float yj[kLine];
     HWY_ALIGN float power[kLine];
-    HWY_ALIGN float smooth[kLine];
+    HWY_ALIGN float upper_smooth[kLine];  // of the vertices above and below
+    HWY_ALIGN float lower_smooth[kLine];
     HWY_ALIGN float u[kLine];
     HWY_ALIGN float v[kLine];
     HWY_ALIGN float clip[kLine];
@@ -104,11 +105,11 @@ HWY_INLINE bool interpolate_line(const Mesh& mesh, const MeshGroup& group, float
     for (int k = 0; k < 4; ++k) slope[k] = cubic.slope[k] * step_j;
     follow_cubic(slope, mesh.x + before, s, line.xj);
     follow_cubic(slope, mesh.y + before, s, line.yj);
-    // Bilinear, as the facets have them.
     for (int k = 0; k < kLine; k += kLanes) {
         const std::ptrdiff_t at = before + s + k;
         hn::Store(between(t, mesh.power + at, s), d, line.power + k);
-        hn::Store(between(t, mesh.smooth + at, s), d, line.smooth + k);
+        hn::Store(load(mesh.smooth + at), d, line.upper_smooth + k);
+        hn::Store(load(mesh.smooth + at + s), d, line.lower_smooth + k);
         if (!masked) continue;
         const auto both = [&](const float* from, float* value, float* change) {
             const V a = load(from + at);
@@ -179,6 +180,15 @@ HWY_INLINE V light_through(const PieceMask& mask, const Mesh& mesh, const MeshGr
         light = hn::Load(d, lights);
     }
     return light;
+}
+
+// The weight of the facets at (t, tj) of cells: linear over the same triangles.
+HWY_INLINE V facet_weight(const Line& line, int lane, float t, float tj) {
+    const float* upper = line.upper_smooth + lane + 1;
+    const float* lower = line.lower_smooth + lane + 1;
+    const V ends = hn::MulAdd(set(1 - std::max(t, tj)), load(upper),
+                              hn::Mul(set(std::min(t, tj)), load(lower + 1)));
+    return hn::MulAdd(set(std::abs(t - tj)), load(t > tj ? upper + 1 : lower), ends);
 }
 
 // A rectangle at most one pixel wide, laid over two pixels.
@@ -276,7 +286,7 @@ void draw(const Mesh& mesh, const MeshGroup& group, const PieceMask& mask, const
                 const V xj = between(t, line.xj + lane + 1, 1);
                 const V yj = between(t, line.yj + lane + 1, 1);
                 V energy = hn::Mul(per_piece, between(t, line.power + lane + 1, 1));
-                energy = hn::NegMulAdd(energy, between(t, line.smooth + lane + 1, 1), energy);
+                energy = hn::NegMulAdd(energy, facet_weight(line, lane, t, tj), energy);
                 if (masked) {
                     energy = hn::Mul(energy,
                                      light_through(mask, mesh, group, line, lane, t, tj));

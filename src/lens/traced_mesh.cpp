@@ -51,9 +51,10 @@ void continue_over_lost(const Mesh& mesh) {
     }
 }
 
-// Throughput where no ray arrives, from neighbours that do: grows by one node per round.
-void fill_empty(float* values, int columns, int rows, int stride) {
-    constexpr int kRounds = 2;
+// Throughput where no ray arrives, continued from the two nodes beyond: it falls towards total
+// reflection.
+void continue_throughput(float* values, int columns, int rows, int stride) {
+    constexpr int kRounds = 2;  // cubics reach so far
     for (int round = 0; round < kRounds; ++round) {
         for (int j = 0; j < rows; ++j) {
             for (int i = 0; i < columns; ++i) {
@@ -62,19 +63,38 @@ void fill_empty(float* values, int columns, int rows, int stride) {
                 float sum = 0;
                 int count = 0;
                 const auto take = [&](bool exists, int step) {
-                    if (!exists || !(at[step] > 0)) return;
-                    sum += at[step];
+                    if (!exists || !(at[step] > 0) || !(at[2 * step] > 0)) return;
+                    sum += std::max(0.0F, 2 * at[step] - at[2 * step]);
                     ++count;
                 };
-                take(i + 1 < columns, 1);
-                take(i > 0, -1);
-                take(j + 1 < rows, stride);
-                take(j > 0, -stride);
+                take(i + 2 < columns, 1);
+                take(i >= 2, -1);
+                take(j + 2 < rows, stride);
+                take(j >= 2, -stride);
                 if (count > 0) *at = sum / static_cast<float>(count);
             }
         }
     }
 }
+
+// Where an index of the grid lies between sparse nodes: the four around it, and the weights of a
+// cubic (Catmull & Rom 1974).
+struct SparsePlace {
+    int node[4];
+    float weight[4];
+    SparsePlace(double index, int every, int nodes) {
+        const double at = std::clamp(index / every, 0.0, static_cast<double>(nodes - 1));
+        const int first = std::min(static_cast<int>(at), nodes - 2);
+        const auto t = static_cast<float>(at - first);
+        const float t2 = t * t;
+        const float t3 = t2 * t;
+        weight[0] = 0.5F * (2 * t2 - t - t3);
+        weight[1] = 0.5F * (3 * t3 - 5 * t2 + 2);
+        weight[2] = 0.5F * (4 * t2 + t - 3 * t3);
+        weight[3] = 0.5F * (t3 - t2);
+        for (int k = 0; k < 4; ++k) node[k] = std::clamp(first + k - 1, 0, nodes - 1);
+    }
+};
 
 }  // namespace
 
@@ -92,6 +112,8 @@ TracedMesh::TracedMesh(int side)
     memory += kMeshFields * field_floats(side, side);
     sparse_ = memory;
     memory += field_floats(sparse_side_, sparse_side_);
+    sparse_row_ = memory;
+    memory += field_floats(sparse_side_, 1);
     for (Patch& patch : patches_) {
         allocate(patch.mesh, kPatchColumns, kPatchRows, memory);
         memory += kMeshFields * field_floats(kPatchColumns, kPatchRows);
@@ -101,6 +123,7 @@ TracedMesh::TracedMesh(int side)
 std::size_t TracedMesh::bytes(int side) {
     const int sparse = (side - 1 + kSparse - 1) / kSparse + 1;
     return sizeof(float) * (kMeshFields * field_floats(side, side) + field_floats(sparse, sparse) +
+                            field_floats(sparse, 1) +
                             kMaxPatches * kMeshFields * field_floats(kPatchColumns, kPatchRows));
 }
 
@@ -124,7 +147,7 @@ void TracedMesh::trace_throughput(const MeshJob& job, const RayBundle& grid) noe
     sparse.step_y_mm *= kSparse;
     ray_kernels().throughput(job.way, sparse, sparse_);
     rays_ += static_cast<std::size_t>(sparse_side_) * static_cast<std::size_t>(sparse_side_);
-    fill_empty(sparse_, sparse_side_, sparse_side_, ray_stride(sparse_side_));
+    continue_throughput(sparse_, sparse_side_, sparse_side_, ray_stride(sparse_side_));
 }
 
 // Fills the vertices of a mesh that begins at (i, j) of the grid, `step` cells of it apart.
@@ -159,24 +182,25 @@ void TracedMesh::trace(const MeshJob& job, Mesh& mesh, double i, double j, doubl
 
     const double cell_mm2 = static_cast<double>(rays.step_x_mm) * rays.step_y_mm;
     const auto power = static_cast<float>(job.power_per_mm2 * cell_mm2);
+    interpolate_throughput(mesh, i, j, step, power);
+}
+
+void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double step,
+                                        float scale) const noexcept {
     const int stride = ray_stride(sparse_side_);
-    const auto position = [&](double index, int& whole) {
-        const double at = std::clamp(index / kSparse, 0.0, static_cast<double>(sparse_side_ - 1));
-        whole = std::min(static_cast<int>(at), sparse_side_ - 2);
-        return static_cast<float>(at - whole);
-    };
     for (int row = 0; row < mesh.rows; ++row) {
-        int y = 0;
-        const float part_y = position(j + row * step, y);
-        const float* upper = sparse_ + y * stride;
-        const float* lower = upper + stride;
+        const SparsePlace across(j + row * step, kSparse, sparse_side_);
+        for (int k = 0; k < sparse_side_; ++k) {
+            float sum = 0;
+            for (int n = 0; n < 4; ++n) sum += across.weight[n] * sparse_[across.node[n] * stride + k];
+            sparse_row_[k] = scale * sum;
+        }
         float* to = mesh.power + row * mesh.stride;
         for (int column = 0; column < mesh.columns; ++column) {
-            int x = 0;
-            const float part_x = position(i + column * step, x);
-            const float left = upper[x] + part_y * (lower[x] - upper[x]);
-            const float right = upper[x + 1] + part_y * (lower[x + 1] - upper[x + 1]);
-            to[column] = power * (left + part_x * (right - left));
+            const SparsePlace along(i + column * step, kSparse, sparse_side_);
+            float sum = 0;
+            for (int n = 0; n < 4; ++n) sum += along.weight[n] * sparse_row_[along.node[n]];
+            to[column] = std::max(0.0F, sum);
         }
     }
 }

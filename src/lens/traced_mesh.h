@@ -51,8 +51,8 @@ class TracedMesh {
     const Mesh& grid() const noexcept { return grid_; }
 
   private:
-    // Throughput varies slowly: it is traced on every 8th ray, and interpolated.
-    static constexpr int kSparse = 8;
+    // Throughput varies slowly: it is traced for every 4th ray, and interpolated by cubics.
+    static constexpr int kSparse = 4;
     // A refined cell is divided into kFiner x kFiner; a patch is a run of up to kRun such cells
     // with a rim, one block of rays wide.
     static constexpr int kFiner = 4;
@@ -74,6 +74,8 @@ class TracedMesh {
     void allocate(Mesh& mesh, int columns, int rows, float* memory) const;
     void trace(const MeshJob& job, Mesh& mesh, double i, double j, double step) noexcept;
     void trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept;
+    void interpolate_throughput(Mesh& mesh, double i, double j, double step,
+                                float scale) const noexcept;
     void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step, int depth,
                 std::uint8_t* state) noexcept;
     void add_bounds(std::span<const MeshGroup> groups) noexcept;
@@ -86,6 +88,7 @@ class TracedMesh {
     Mesh grid_;
     RayBundle bundle_;
     float* sparse_ = nullptr;
+    float* sparse_row_ = nullptr;  // between rows of it
     std::vector<std::uint8_t> state_;
     std::vector<std::uint8_t> patch_state_;
     std::vector<MeshGroup> groups_;
