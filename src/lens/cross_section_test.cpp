@@ -161,7 +161,8 @@ TEST(CrossSection, RaysFillTheStopAndThoseBesideItEndThere) {
 
 TEST(CrossSection, AGhostGoesBackOnceAndLandsWhereLinearOpticsSays) {
     // Stopped far down, so that rays stay near the axis.
-    const Lens lens = shipped("heliar", 90);
+    const Lens lens = shipped("heliar", 180);
+    int followed = 0;
     for (const Bounces& ghost : enumerate_ghosts(lens, GhostSet::kAll)) {
         CrossSectionOptions options;
         options.ghost = ghost;
@@ -184,10 +185,14 @@ TEST(CrossSection, AGhostGoesBackOnceAndLandsWhereLinearOpticsSays) {
         }
         // A ghost larger than the frame leaves it.
         if (out.size() != 3 || in.size() != 3) continue;
+        ++followed;
         for (std::size_t i = 0; i < 3; ++i) {
-            EXPECT_NEAR(out[i], to_sensor.y.a * in[i], 0.02 * std::abs(to_sensor.y.a) + 1e-6);
+            // 0.3 mm from the axis, where the steepest radius is 28 mm: linear to a few (0.3 /
+            // 28)^2.
+            EXPECT_NEAR(out[i], to_sensor.y.a * in[i], 1e-3 * std::abs(out[i]) + 1e-9);
         }
     }
+    EXPECT_GE(followed, 24);
 }
 
 TEST(CrossSection, CylindersAreFlatAlongTheirAxis) {
@@ -199,13 +204,13 @@ TEST(CrossSection, CylindersAreFlatAlongTheirAxis) {
         const Lens lens(table);
         double left = HUGE_VAL;
         double right = -HUGE_VAL;
-        for (const SectionPoint& point : face_curve(lens.faces()[0], 5)) {
+        for (const SectionPoint& point : face_curve(lens.faces()[1], 5)) {
             left = std::min(left, point.z_mm);
             right = std::max(right, point.z_mm);
         }
         return right - left;
     };
-    const double radius = std::abs(table.surfaces[0].radius_mm);
+    const double radius = std::abs(table.surfaces[1].radius_mm);
     ASSERT_GT(radius, 0);
     const double sag = radius - std::sqrt(radius * radius - 25);
     EXPECT_NEAR(spread(Profile::kRotational), sag, 1e-9);
