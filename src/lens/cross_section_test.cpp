@@ -159,6 +159,28 @@ TEST(CrossSection, RaysFillTheStopAndThoseBesideItEndThere) {
     }
 }
 
+TEST(CrossSection, RaysThatHousingsEndReachTheirRims) {
+    const Lens lens = shipped("nikon-28-75");
+    const Measured measured(lens, {.field_angles_deg = {0, 15}, .rays_per_field = 9});
+    int ended = 0;
+    for (const std::size_t field : {0U, 1U}) {
+        for (const auto& ray : measured.rays(field, true)) {
+            const SectionPoint end = ray.back();
+            // Those that the frame cut before are not told apart by where they end.
+            if (std::abs(end.y_mm) > 1.05 * lens.faces()[0].semi_aperture_mm) continue;
+            ++ended;
+            const auto faces = lens.faces();
+            EXPECT_TRUE(std::any_of(faces.begin(), faces.end(),
+                                    [&](const Face& face) {
+                                        return std::abs(rim_z_mm(face) - end.z_mm) < 1e-9 &&
+                                               std::abs(end.y_mm) > face.semi_aperture_mm;
+                                    }))
+                << "a ray ends at z = " << end.z_mm << ", y = " << end.y_mm;
+        }
+    }
+    EXPECT_GE(ended, 12);
+}
+
 TEST(CrossSection, AGhostGoesBackOnceAndLandsWhereLinearOpticsSays) {
     // Stopped far down, so that rays stay near the axis.
     const Lens lens = shipped("heliar", 180);
