@@ -61,7 +61,8 @@ CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scra
                     needed = false;
                     break;
                 }
-            } else if (size == 1 || crossing(last, disc) > crossing(scratch[size - 2], last)) {
+            } else if (size == 1 ||
+                       crossing(last, disc) > crossing(scratch[size - 2], last)) {
                 break;
             }
             --size;
@@ -89,8 +90,8 @@ CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scra
 
 namespace {
 
-constexpr int kLines = 64;    // where only edges matter
-constexpr int kSamples = 20;  // per side, where pictures do
+constexpr int kLines = 64;     // where only edges matter
+constexpr int kSamples = 20;   // per side, where pictures do
 
 struct Interval {
     double low = -1e300;
@@ -109,11 +110,17 @@ void cut_by_ellipse(Interval& chord, double u0, double v0, double ru, double rv,
     half < 0 ? chord.clear() : chord.cut(u0 - half, u0 + half);
 }
 
+// Smooth corners and pictures have no simple chords.
+bool is_sampled(const Iris& iris) {
+    return iris.is_image() || (iris.shape().blades > 0 && iris.shape().smoothing > 0);
+}
+
 // The same in the iris, placed like a clip, with sharp corners.
 void cut_by_iris(Interval& chord, const Iris& iris, double u0, double v0, double ru, double rv,
                  double v) {
-    if (iris.shape().blades == 0 || iris.is_image()) {
-        const double radius = iris.outer_radius();
+    if (iris.shape().blades == 0 || is_sampled(iris)) {
+        // What is sampled fades over the width of a sample.
+        const double radius = iris.outer_radius() + (is_sampled(iris) ? 0.1 : 0);
         cut_by_ellipse(chord, u0, v0, radius * ru, radius * rv, v);
         return;
     }
@@ -146,12 +153,12 @@ void cut_by_iris(Interval& chord, const Iris& iris, double u0, double v0, double
 OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
                    std::span<const MatrixGhost::Clip> clips) noexcept {
     const Iris& iris = *pupil.iris;
-    const bool smooth = iris.shape().smoothing > 0;
-    const double reach = static_cast<double>(pupil.outer_radius(0));
+    const bool smooth = is_sampled(iris) && !iris.is_image();
+    const double reach = static_cast<double>(pupil.outer_radius(0)) + (smooth ? 0.1 : 0);
     Interval range = {-reach, reach};
     for (const MatrixGhost::Clip& clip : clips) {
-        const double outer =
-            static_cast<double>(std::abs(clip.rv)) * (clip.iris ? iris.outer_radius() : 1.0);
+        const double outer = static_cast<double>(std::abs(clip.rv)) *
+                             (clip.iris ? iris.outer_radius() + (smooth ? 0.1 : 0) : 1.0);
         range.cut(static_cast<double>(clip.v0) - outer, static_cast<double>(clip.v0) + outer);
     }
     OpenArea open;
@@ -205,7 +212,8 @@ OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
             }
             for (const MatrixGhost::Clip& clip : clips) {
                 if (!clip.iris) continue;
-                through_iris((fu - clip.u0) / clip.ru, (fv - clip.v0) / clip.rv, std::abs(clip.ru));
+                through_iris((fu - clip.u0) / clip.ru, (fv - clip.v0) / clip.rv,
+                             std::abs(clip.ru));
             }
             const double part = weight * length / kSamples * static_cast<double>(share);
             open.area += part;

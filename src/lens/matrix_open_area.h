@@ -21,15 +21,15 @@ struct CommonArea {
     double area = 0;    // 0: nothing is left
     double middle = 0;  // centroid, along the line
     double low = 0, high = 0;
-    int edges = 0;             // how many discs bound it; at most kMaxEdges are told
+    int edges = 0;  // how many discs bound it; at most kMaxEdges are told
     int edge[kMaxEdges] = {};  // LineDisc::clip of those
 };
 
 // The area that discs, sorted by rising centre, have in common. `scratch` has room for as many.
 CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scratch) noexcept;
 
-// The part of the iris within clips of any kind, in iris units, by quadrature: to 2e-4 of the unit
-// disc where only edges matter, where pictures do to what `kSamples` squared points show of them.
+// The part of the iris within clips of any kind, in iris units, by quadrature: to 1e-3 of the unit
+// disc where edges are sharp, to 5e-3 where 20 x 20 points look at smooth corners or pictures.
 struct OpenArea {
     double area = 0;  // weighted by transmission
     double middle_u = 0, middle_v = 0;

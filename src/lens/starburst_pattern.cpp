@@ -16,10 +16,11 @@ namespace {
 // The law takes over from the wide raster within the outer part of the ring that it was fitted to.
 constexpr double kHandOver = 1.4142135623730951;
 // A sample is read as evenly bright. Around the axis, where the pattern varies by its full height
-// over lambda / opening, eight samples to that are needed to have a pixel right to 1 %; farther out
-// it only matters how much light there is. The core hands over from 16 to 32 lambda / opening.
-constexpr double kCoreWidth = 8;  // extent over opening
-constexpr int kCoreSamples = 1024;
+// over lambda / opening, sixteen samples to that put .001 of the energy where it does not belong;
+// farther out it only matters how much light there is. The core hands over from 16 to 32
+// lambda / opening.
+constexpr double kCoreWidth = 16;  // extent over opening
+constexpr int kCoreSamples = 2048;
 constexpr Crossover kCore = {kCoreWidth * 16, kCoreWidth * 32};
 
 double smoothstep(double t) {
@@ -106,17 +107,16 @@ double Crossover::before(double rho) const {
 }
 
 StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
-                                   const wave::ApertureGrid& grid, double end_samples,
-                                   const Occluder* occluder) {
+                                   const RasterPlan& plan, const Occluder* occluder) {
     const double opening_mm = pupil_diameter_mm * iris.outer_radius();
-    const Crossover crossover{end_samples / kHandOver, end_samples};
+    const Crossover crossover{plan.end_samples / kHandOver, plan.end_samples};
     const double core_extent_mm = kCoreWidth * opening_mm;
-    const double wide_per_core = grid.extent_mm / core_extent_mm;  // samples per sample
+    const double wide_per_core = plan.grid.extent_mm / core_extent_mm;  // samples per sample
     const bool with_core = wide_per_core < 1;
 
-    AxisSquare wide =
-        square_around_axis(draw_aperture(iris, pupil_diameter_mm, grid, occluder), end_samples);
-    AngularProfile beyond = AngularProfile::of(wide, end_samples);
+    AxisSquare wide = square_around_axis(
+        draw_aperture(iris, pupil_diameter_mm, plan.grid, occluder), plan.end_samples);
+    AngularProfile beyond = AngularProfile::of(wide, plan.end_samples);
     double total = share_beyond(crossover) * beyond.turn();
     total += apply(wide, [&](double rho) {
         return crossover.before(rho) * (with_core ? 1 - kCore.before(rho / wide_per_core) : 1);
@@ -129,9 +129,9 @@ StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
         total += apply(*core, [](double rho) { return kCore.before(rho); });
     }
     beyond.multiply(1 / total);
-    StarburstPattern pattern{std::nullopt,
-                             raster(std::move(wide), 1 / total, grid.extent_mm, end_samples),
-                             crossover, std::move(beyond)};
+    StarburstPattern pattern{
+        std::nullopt, raster(std::move(wide), 1 / total, plan.grid.extent_mm, plan.end_samples),
+        crossover, std::move(beyond)};
     if (core) pattern.core = raster(std::move(*core), 1 / total, core_extent_mm, kCore.end);
     return pattern;
 }

@@ -33,10 +33,8 @@ struct StarburstPattern {
     AngularProfile beyond;  // energy per sample of the wide raster
 };
 
-// Unit energy over all directions. `grid` is that of the wide raster (starburst_grid), which ends
-// at `end_samples` from the axis, at most a good quarter of its width.
+// Unit energy over all directions.
 StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
-                                   const wave::ApertureGrid& grid, double end_samples,
-                                   const Occluder* occluder);
+                                   const RasterPlan& plan, const Occluder* occluder);
 
 }  // namespace aureole::lens

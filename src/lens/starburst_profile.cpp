@@ -81,7 +81,8 @@ std::vector<RingSums> sum_ring(const AxisSquare& pattern, double end, std::size_
 }  // namespace
 
 AngularProfile AngularProfile::of(const AxisSquare& pattern, double end) {
-    const auto bins = static_cast<std::size_t>(std::ceil(kPi * end));
+    // A multiple of four: an iris may be turned by a quarter, or seen in a mirror.
+    const auto bins = 4 * static_cast<std::size_t>(std::ceil(kPi * end / 4));
     std::vector<double> values(bins, 0.0);
     std::vector<double> samples(bins, 0.0);
     double total = 0;

@@ -137,6 +137,21 @@ TEST(ZmxFormat, MissingSemiDiametersAreEstimatedFromTheBeam) {
                 HasSubstr("surface 1: semi-aperture = missing: must be given"));
 }
 
+// The stop 10 mm behind a plano-convex lens; by hand, from the centre of the stop forwards, with
+// slope 1 there: y2 = -10, y1 = y2 - 6 / 1.5 = -14, slope in front 1 + y1 * 0.5 / 50 = 0.86.
+TEST(ZmxFormat, ThePrincipalRayMeetsTheCentreOfTheStop) {
+    const Prescription lens = parse_zmx(
+        "ENPD 10\nYFLN 0 20\nSURF 0\nCURV 0\nDISZ INFINITY\n"
+        "SURF 1\nCURV 0.02\nDISZ 6\nGLAS ___BLANK 1 0 1.5 60\nDIAM 0\n"
+        "SURF 2\nCURV 0\nDISZ 10\nDIAM 0\n"
+        "SURF 3\nSTOP\nCURV 0\nDISZ 80\nDIAM 0\nSURF 4\nCURV 0\nDISZ 0\n",
+        "f");
+    const double slope = 0.363970234266 / 0.86;
+    EXPECT_NEAR(lens.surfaces[0].semi_aperture_mm, 1.05 * (5 + 14 * slope), 1e-9);
+    EXPECT_NEAR(lens.surfaces[1].semi_aperture_mm, 1.05 * (4.8 + 10 * slope), 1e-9);
+    EXPECT_NEAR(lens.surfaces[2].semi_aperture_mm, 4.8 - 10 * 0.05, 1e-9);
+}
+
 TEST(ZmxFormat, WhatAnImageAtInfinityLacksIsTold) {
     const auto near = with(kTripletZmx, "DISZ INFINITY", "DISZ 250");
     EXPECT_THAT(parse_zmx(near, "f").warnings, testing::Contains(HasSubstr("distance of 250")));

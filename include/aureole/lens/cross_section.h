@@ -15,14 +15,15 @@ namespace aureole::lens {
 
 struct CrossSectionOptions {
     double sheet_width_mm = 240;  // 120 to 2000
-    std::string title;            // empty: the name of the prescription
+    std::string title = {};       // empty: the name of the prescription
     // Angles of the light above the axis, one colour each, d line.
     std::vector<double> field_angles_deg = {0};
     // Across the light that passes; those next to it at the same distances that an aperture ends
     // are drawn up to there, fainter. 0: no rays.
     int rays_per_field = 7;
-    std::optional<Bounces> ghost;  // its way from the first of the angles, over faint image rays
-    bool legend = true;            // title, EFL, f-number, colour scale of the index, mm scale
+    std::optional<Bounces> ghost =
+        {};              // its way from the first of the angles, over faint image rays
+    bool legend = true;  // title, EFL, f-number, colour scale of the index, mm scale
 };
 
 // Throws InvalidArgument for angles outside (-90, 90) or more than 32 of them, a ghost that the

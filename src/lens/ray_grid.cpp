@@ -1,0 +1,173 @@
+#include "lens/ray_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aureole::lens {
+namespace {
+
+constexpr int kMaxRounds = 10;
+
+// A face's sag at the edge of its aperture, sampled: only its range matters.
+struct SagRange {
+    double low = 0, high = 0;
+};
+
+SagRange sag_range(const Face& face, double radius) {
+    constexpr int kSamples = 64;
+    SagRange range;
+    for (int k = 1; k <= kSamples; ++k) {
+        const double r2 = std::pow(radius * k / kSamples, 2);
+        const double c = face.curvature_per_mm;
+        double sag = c * r2 / (1 + std::sqrt(std::max(0.0, 1 - (1 + face.conic) * c * c * r2)));
+        double power = r2 * r2;
+        for (const double coefficient : face.asphere) {
+            sag += coefficient * power;
+            power *= r2;
+        }
+        range.low = std::min(range.low, sag);
+        range.high = std::max(range.high, sag);
+    }
+    return range;
+}
+
+// Bounds of a quantity in a cell: from its corners, and from its neighbours' too; lost rays are left
+// out.
+struct Range {
+    float low = kLostRay, high = -kLostRay;
+    void include(float value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    float size() const { return high - low; }
+};
+
+struct CellRange {
+    Range corners, around;
+    void include(float value, bool is_corner) {
+        around.include(value);
+        if (is_corner) corners.include(value);
+    }
+    // What the cell may hold: with few and large cells the quantity may turn within one, and its
+    // neighbours tell how steeply.
+    Range possible(bool last) const {
+        const float more = last ? 0.5F * corners.size() : 0.75F * around.size();
+        return {corners.low - more, corners.high + more};
+    }
+};
+
+}  // namespace
+
+RayDirection::RayDirection(const sources::Light& light) {
+    const double scale = 1 / std::sqrt(1 + light.tan_x * light.tan_x + light.tan_y * light.tan_y);
+    x = -light.tan_x * scale;
+    y = -light.tan_y * scale;
+    z = scale;
+}
+
+PlaneBox entrance_of_first_face(const Face& face, const RayDirection& direction,
+                                   double widest) {
+    const double radius = face.semi_aperture_mm * (face.stop ? widest : 1);
+    const SagRange sag = sag_range(face, radius);
+    const auto shifted = [&](double slope, double& low, double& high) {
+        const double a = -slope * sag.low;
+        const double b = -slope * sag.high;
+        low = -radius + std::min({a, b, 0.0});
+        high = radius + std::max({a, b, 0.0});
+    };
+    PlaneBox box;
+    shifted(direction.x / direction.z, box.x0, box.x1);
+    shifted(direction.y / direction.z, box.y0, box.y1);
+    return box;
+}
+
+EntranceSearch::EntranceSearch() : memory_(5 * kSide * kSide) {
+    float** const all[] = {&fields_.x, &fields_.y, &fields_.u, &fields_.v, &fields_.clip};
+    for (std::size_t k = 0; k < 5; ++k) *all[k] = memory_.data() + k * kSide * kSide;
+}
+
+PlaneBox EntranceSearch::possible(const EntranceQuery& query, std::span<const RayStep> way,
+                                  const PlaneBox& box, bool last) noexcept {
+    static_assert(ray_stride(kSide) == kSide);
+    RayBundle rays;
+    rays.direction[0] = static_cast<float>(query.direction.x);
+    rays.direction[1] = static_cast<float>(query.direction.y);
+    rays.direction[2] = static_cast<float>(query.direction.z);
+    rays.columns = rays.rows = kSide;
+    const double step_x = (box.x1 - box.x0) / (kSide - 1);
+    const double step_y = (box.y1 - box.y0) / (kSide - 1);
+    rays.x_mm = static_cast<float>(box.x0);
+    rays.y_mm = static_cast<float>(box.y0);
+    rays.step_x_mm = static_cast<float>(step_x);
+    rays.step_y_mm = static_cast<float>(step_y);
+    ray_kernels().trace(way, query.sensor_distance_mm, rays, query.iris, fields_);
+    rays_ += kSide * kSide;
+
+    // The aperture that is hardest to pass, 1 at its edge: housings, and the stop as a circle.
+    float* hardest = fields_.u;
+    const auto widest = static_cast<float>(query.widest);
+    for (int k = 0; k < kSide * kSide; ++k) {
+        const float r = std::hypot(fields_.u[k], fields_.v[k]) / widest;
+        hardest[k] = std::max(fields_.clip[k], r);
+    }
+    const PlaneBox& sensor = query.sensor;
+    int first_column = kSide;
+    int last_column = -1;
+    int first_row = kSide;
+    int last_row = -1;
+    for (int row = 0; row + 1 < kSide; ++row) {
+        for (int column = 0; column + 1 < kSide; ++column) {
+            CellRange pass;
+            CellRange x;
+            CellRange y;
+            for (int j = std::max(0, row - 1); j <= std::min(kSide - 1, row + 2); ++j) {
+                for (int i = std::max(0, column - 1); i <= std::min(kSide - 1, column + 2); ++i) {
+                    const int at = j * kSide + i;
+                    if (fields_.clip[at] >= kLostRay) continue;
+                    const bool corner = (j == row || j == row + 1) && (i - column) / 2 == 0 &&
+                                        i >= column;
+                    pass.include(hardest[at], corner);
+                    x.include(fields_.x[at], corner);
+                    y.include(fields_.y[at], corner);
+                }
+            }
+            if (pass.corners.low >= kLostRay || pass.possible(last).low > 1) continue;
+            const Range in_x = x.possible(last);
+            const Range in_y = y.possible(last);
+            if (in_x.high < sensor.x0 || in_x.low > sensor.x1 || in_y.high < sensor.y0 ||
+                in_y.low > sensor.y1) {
+                continue;
+            }
+            first_column = std::min(first_column, column);
+            last_column = std::max(last_column, column + 1);
+            first_row = std::min(first_row, row);
+            last_row = std::max(last_row, row + 1);
+        }
+    }
+    if (last_column < 0) return {};
+    return {box.x0 + first_column * step_x, box.x0 + last_column * step_x,
+            box.y0 + first_row * step_y, box.y0 + last_row * step_y};
+}
+
+PlaneBox EntranceSearch::find(const EntranceQuery& query) noexcept {
+    PlaneBox box = query.start;
+    for (int round = 0; round < kMaxRounds; ++round) {
+        const PlaneBox smaller = possible(query, query.ways.front(), box, false);
+        if (smaller.empty()) return {};
+        const bool done = smaller.x1 - smaller.x0 > 0.8 * (box.x1 - box.x0) &&
+                          smaller.y1 - smaller.y0 > 0.8 * (box.y1 - box.y0);
+        box = smaller;
+        if (done) break;
+    }
+    PlaneBox all;
+    for (const auto way : query.ways) {
+        const PlaneBox one = possible(query, way, box, true);
+        if (one.empty()) continue;
+        all = all.empty() ? one
+                          : PlaneBox{std::min(all.x0, one.x0), std::max(all.x1, one.x1),
+                                     std::min(all.y0, one.y0), std::max(all.y1, one.y1)};
+    }
+    return all;
+}
+
+}  // namespace aureole::lens

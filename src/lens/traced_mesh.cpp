@@ -1,0 +1,302 @@
+#include "lens/traced_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace aureole::lens {
+namespace {
+
+constexpr int kFields = 7;
+
+std::size_t field_floats(int columns, int rows) {
+    return static_cast<std::size_t>(ray_stride(columns)) * static_cast<std::size_t>(rows) +
+           kMeshPadding;
+}
+
+std::size_t most_groups(int columns, int rows) {
+    return static_cast<std::size_t>((columns / kGroup + 1) * rows);
+}
+
+// Rays that never arrive still serve as neighbours of cells that do: their positions are continued
+// from the two rays beyond.
+void continue_over_lost(const Mesh& mesh) {
+    const auto stride = mesh.stride;
+    for (int j = 0; j < mesh.rows; ++j) {
+        for (int i = 0; i < mesh.columns; ++i) {
+            const std::ptrdiff_t at = j * stride + i;
+            if (mesh.clip[at] < kLostRay) continue;
+            float x = 0;
+            float y = 0;
+            int ways = 0;
+            const auto from = [&](bool exists, std::ptrdiff_t step) {
+                if (!exists || mesh.clip[at + step] >= kLostRay ||
+                    mesh.clip[at + 2 * step] >= kLostRay) {
+                    return;
+                }
+                x += 2 * mesh.x[at + step] - mesh.x[at + 2 * step];
+                y += 2 * mesh.y[at + step] - mesh.y[at + 2 * step];
+                ++ways;
+            };
+            from(i + 2 < mesh.columns, 1);
+            from(i >= 2, -1);
+            from(j + 2 < mesh.rows, stride);
+            from(j >= 2, -stride);
+            if (ways == 0) continue;
+            mesh.x[at] = x / static_cast<float>(ways);
+            mesh.y[at] = y / static_cast<float>(ways);
+        }
+    }
+}
+
+// Throughput where no ray arrives, from neighbours that do: grows by one node per round.
+void fill_empty(float* values, int columns, int rows, int stride) {
+    constexpr int kRounds = 2;
+    for (int round = 0; round < kRounds; ++round) {
+        for (int j = 0; j < rows; ++j) {
+            for (int i = 0; i < columns; ++i) {
+                float* at = values + j * stride + i;
+                if (*at > 0) continue;
+                float sum = 0;
+                int count = 0;
+                const auto take = [&](bool exists, int step) {
+                    if (!exists || !(at[step] > 0)) return;
+                    sum += at[step];
+                    ++count;
+                };
+                take(i + 1 < columns, 1);
+                take(i > 0, -1);
+                take(j + 1 < rows, stride);
+                take(j > 0, -stride);
+                if (count > 0) *at = sum / static_cast<float>(count);
+            }
+        }
+    }
+}
+
+}  // namespace
+
+TracedMesh::TracedMesh(int side)
+    : side_(side),
+      sparse_side_((side - 1 + kSparse - 1) / kSparse + 1),
+      memory_(bytes(side) / sizeof(float)),
+      state_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side)),
+      patch_state_(static_cast<std::size_t>(kPatchColumns) * kPatchRows),
+      groups_(most_groups(side, side) + kMaxPatches * most_groups(kPatchColumns, kPatchRows)),
+      patches_(kMaxPatches) {
+    std::fill(memory_.data(), memory_.data() + memory_.size(), 0.0F);
+    float* memory = memory_.data();
+    allocate(grid_, side, side, memory);
+    memory += kFields * field_floats(side, side);
+    sparse_ = memory;
+    memory += field_floats(sparse_side_, sparse_side_);
+    for (Patch& patch : patches_) {
+        allocate(patch.mesh, kPatchColumns, kPatchRows, memory);
+        memory += kFields * field_floats(kPatchColumns, kPatchRows);
+    }
+}
+
+std::size_t TracedMesh::bytes(int side) {
+    const int sparse = (side - 1 + kSparse - 1) / kSparse + 1;
+    return sizeof(float) * (kFields * field_floats(side, side) + field_floats(sparse, sparse) +
+                            kMaxPatches * kFields * field_floats(kPatchColumns, kPatchRows));
+}
+
+void TracedMesh::allocate(Mesh& mesh, int columns, int rows, float* memory) const {
+    mesh.columns = columns;
+    mesh.rows = rows;
+    mesh.stride = ray_stride(columns);
+    float** const fields[kFields] = {&mesh.x,    &mesh.y,     &mesh.u,    &mesh.v,
+                                     &mesh.clip, &mesh.power, &mesh.share};
+    for (float** field : fields) {
+        *field = memory;
+        memory += field_floats(columns, rows);
+    }
+}
+
+void TracedMesh::trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept {
+    RayBundle sparse = grid;
+    sparse.columns = sparse.rows = sparse_side_;
+    sparse.step_x_mm *= kSparse;
+    sparse.step_y_mm *= kSparse;
+    ray_kernels().throughput(job.way, sparse, sparse_);
+    rays_ += static_cast<std::size_t>(sparse_side_) * static_cast<std::size_t>(sparse_side_);
+    fill_empty(sparse_, sparse_side_, sparse_side_, ray_stride(sparse_side_));
+}
+
+// Fills the vertices of a mesh that begins at (i, j) of the grid, `step` cells of it apart.
+void TracedMesh::trace(const MeshJob& job, Mesh& mesh, double i, double j, double step) noexcept {
+    RayBundle rays = bundle_;
+    rays.columns = mesh.columns;
+    rays.rows = mesh.rows;
+    rays.x_mm = static_cast<float>(bundle_.x_mm + i * static_cast<double>(bundle_.step_x_mm));
+    rays.y_mm = static_cast<float>(bundle_.y_mm + j * static_cast<double>(bundle_.step_y_mm));
+    rays.step_x_mm = static_cast<float>(step * static_cast<double>(bundle_.step_x_mm));
+    rays.step_y_mm = static_cast<float>(step * static_cast<double>(bundle_.step_y_mm));
+    mesh.entrance_x = rays.x_mm;
+    mesh.entrance_y = rays.y_mm;
+    mesh.entrance_step_x = rays.step_x_mm;
+    mesh.entrance_step_y = rays.step_y_mm;
+    ray_kernels().trace(job.way, job.sensor_distance_mm, rays, job.iris,
+                        {mesh.x, mesh.y, mesh.u, mesh.v, mesh.clip});
+    rays_ += static_cast<std::size_t>(mesh.columns) * static_cast<std::size_t>(mesh.rows);
+
+    // To pixels of the level.
+    const Film& film = *job.film;
+    const double per_px = 1.0 / (1 << job.level);
+    const auto scale = static_cast<float>(per_px / film.mm_per_px);
+    const auto axis_x = static_cast<float>(film.axis_x * per_px);
+    const auto axis_y = static_cast<float>(film.axis_y * per_px);
+    const std::ptrdiff_t count = mesh.stride * mesh.rows;
+    for (std::ptrdiff_t k = 0; k < count; ++k) mesh.x[k] = axis_x - mesh.x[k] * scale;
+    for (std::ptrdiff_t k = 0; k < count; ++k) mesh.y[k] = axis_y + mesh.y[k] * scale;
+    const bool some_lost =
+        std::any_of(mesh.clip, mesh.clip + count, [](float c) { return c >= kLostRay; });
+    if (some_lost) continue_over_lost(mesh);
+
+    const double cell_mm2 = static_cast<double>(rays.step_x_mm) * rays.step_y_mm;
+    const auto power = static_cast<float>(job.power_per_mm2 * cell_mm2);
+    const int stride = ray_stride(sparse_side_);
+    const auto position = [&](double index, int& whole) {
+        const double at = std::clamp(index / kSparse, 0.0, static_cast<double>(sparse_side_ - 1));
+        whole = std::min(static_cast<int>(at), sparse_side_ - 2);
+        return static_cast<float>(at - whole);
+    };
+    for (int row = 0; row < mesh.rows; ++row) {
+        int y = 0;
+        const float part_y = position(j + row * step, y);
+        const float* upper = sparse_ + y * stride;
+        const float* lower = upper + stride;
+        float* to = mesh.power + row * mesh.stride;
+        for (int column = 0; column < mesh.columns; ++column) {
+            int x = 0;
+            const float part_x = position(i + column * step, x);
+            const float left = upper[x] + part_y * (lower[x] - upper[x]);
+            const float right = upper[x + 1] + part_y * (lower[x + 1] - upper[x + 1]);
+            to[column] = power * (left + part_x * (right - left));
+        }
+    }
+}
+
+void TracedMesh::refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
+                        int depth, const std::uint8_t* state) noexcept {
+    for (int row = 1; row + 2 < mesh.rows; ++row) {
+        for (int column = 1; column + 2 < mesh.columns; ++column) {
+            const std::uint8_t* cell = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+            if (cell[column] != kCellRefined) continue;
+            if (patch_count_ == kMaxPatches) return;
+            int run = 1;
+            while (run < kRun && column + run + 2 < mesh.columns &&
+                   cell[column + run] == kCellRefined) {
+                ++run;
+            }
+            Patch& patch = patches_[static_cast<std::size_t>(patch_count_++)];
+            patch.mesh.columns = run * kFiner + 3;
+            patch.depth = depth + 1;
+            patch.step = step / kFiner;
+            patch.i = i + column * step - patch.step;
+            patch.j = j + row * step - patch.step;
+            trace(job, patch.mesh, patch.i, patch.j, patch.step);
+            float* share = mesh.share + row * mesh.stride + column;
+            std::fill(share, share + run, 0.0F);
+            column += run - 1;
+        }
+    }
+}
+
+void TracedMesh::add_bounds(std::span<const MeshGroup> groups) noexcept {
+    for (const MeshGroup& group : groups) {
+        const auto whole = [](float at, float low, float high) {
+            return static_cast<int>(std::floor(std::clamp(at, low, high)));
+        };
+        const Bounds b = {whole(group.x0, -1e6F, 1e6F), whole(group.x1, -1e6F, 1e6F) + 1,
+                          whole(group.y0, -1e6F, 1e6F), whole(group.y1, -1e6F, 1e6F) + 1};
+        if (bounds_.y0 >= bounds_.y1) {
+            bounds_ = b;
+        } else {
+            bounds_ = {std::min(bounds_.x0, b.x0), std::max(bounds_.x1, b.x1),
+                       std::min(bounds_.y0, b.y0), std::max(bounds_.y1, b.y1)};
+        }
+    }
+}
+
+void TracedMesh::build(const MeshJob& job) noexcept {
+    rays_ = 0;
+    patch_count_ = group_count_ = grid_groups_ = 0;
+    bounds_ = {};
+    // One cell on each side is the rim, which is not drawn.
+    const double step_x = (job.box.x1 - job.box.x0) / (side_ - 3);
+    const double step_y = (job.box.y1 - job.box.y0) / (side_ - 3);
+    bundle_ = {};
+    bundle_.direction[0] = static_cast<float>(job.direction.x);
+    bundle_.direction[1] = static_cast<float>(job.direction.y);
+    bundle_.direction[2] = static_cast<float>(job.direction.z);
+    bundle_.columns = bundle_.rows = side_;
+    bundle_.x_mm = static_cast<float>(job.box.x0 - step_x);
+    bundle_.y_mm = static_cast<float>(job.box.y0 - step_y);
+    bundle_.step_x_mm = static_cast<float>(step_x);
+    bundle_.step_y_mm = static_cast<float>(step_y);
+    trace_throughput(job, bundle_);
+    trace(job, grid_, 0, 0, 1);
+
+    ClassifyOptions options;
+    options.inner_radius = job.inner_radius;
+    options.outer_radius = job.outer_radius;
+    options.blur_px = job.blur_px;
+    options.x0 = job.x0;
+    options.x1 = job.x1;
+    options.y0 = job.y0;
+    options.y1 = job.y1;
+    const auto classify = [&](const Mesh& mesh, std::uint8_t* state) {
+        const int first = group_count_;
+        const int count = mesh_kernels().classify(mesh, options, state, groups_.data() + first);
+        group_count_ += count;
+        add_bounds(std::span(groups_).subspan(static_cast<std::size_t>(first),
+                                              static_cast<std::size_t>(count)));
+        return count;
+    };
+    grid_groups_ = classify(grid_, state_.data());
+    refine(job, grid_, 0, 0, 1, 0, state_.data());
+    // The list grows while it is worked through.
+    for (int k = 0; k < patch_count_; ++k) {
+        Patch& patch = patches_[static_cast<std::size_t>(k)];
+        patch.first_group = group_count_;
+        patch.group_count = classify(patch.mesh, patch_state_.data());
+        if (patch.depth < kMaxDepth) {
+            refine(job, patch.mesh, patch.i, patch.j, patch.step, patch.depth,
+                   patch_state_.data());
+        }
+    }
+    if (getenv("DBG")) {
+        double pieces = 0, most = 0; for (int g = 0; g < group_count_; ++g) { double p = 16.0*groups_[g].pieces_i*groups_[g].pieces_j; pieces += p; if (p>most) most=p; }
+        printf("mesh groups %d patches %d pieces %g most %g bounds %d %d %d %d box %g %g %g %g\n", grid_groups_, patch_count_, pieces, most, bounds_.x0, bounds_.x1, bounds_.y0, bounds_.y1, job.box.x0, job.box.x1, job.box.y0, job.box.y1);
+    }
+}
+
+void TracedMesh::draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups,
+                             const PieceMask& mask, const MeshTile& tile) const noexcept {
+    const auto x0 = static_cast<float>(tile.x0);
+    const auto x1 = static_cast<float>(tile.x1);
+    const auto y0 = static_cast<float>(tile.y0);
+    const auto y1 = static_cast<float>(tile.y1);
+    const auto draw = mesh_kernels().draw;
+    for (const MeshGroup& group : groups) {
+        if (group.y1 < y0 || group.y0 > y1 || group.x1 < x0 || group.x0 > x1) continue;
+        draw(mesh, group, mask, tile);
+    }
+}
+
+void TracedMesh::draw(const PieceMask& mask, const MeshTile& tile) const noexcept {
+    const std::span groups(groups_);
+    draw_groups(grid_, groups.first(static_cast<std::size_t>(grid_groups_)), mask, tile);
+    for (int k = 0; k < patch_count_; ++k) {
+        const Patch& patch = patches_[static_cast<std::size_t>(k)];
+        draw_groups(patch.mesh,
+                    groups.subspan(static_cast<std::size_t>(patch.first_group),
+                                   static_cast<std::size_t>(patch.group_count)),
+                    mask, tile);
+    }
+}
+
+}  // namespace aureole::lens
