@@ -39,8 +39,7 @@ Image noise(int side, std::uint64_t seed) {
 
 // Ghosts that lie inside the picture with room to spare for blur and interpolation.
 bool inside(const MatrixGhost& ghost, const View& view, int level) {
-    const double reach = 1.2 * static_cast<double>(ghost.radius_px *
-                                                   (1 + ghost.edge)) +
+    const double reach = 1.2 * static_cast<double>(ghost.radius_px * (1 + ghost.edge)) +
                          3.0 * (1 << level) + 4 * std::sqrt(static_cast<double>(ghost.spot_yy));
     const auto x = static_cast<double>(ghost.open_x);
     const auto y = static_cast<double>(ghost.open_y);
@@ -72,10 +71,9 @@ int compare_sums(MatrixScene& scene, const sources::Light& light, double toleran
 TEST(MatrixGhosts, SumOfPixelsIsAreaTimesRadiance) {
     const Lens lens(shipped_lens("heliar"), {.f_number = 8});
     const View view = test_view(lens, 900, 700, 90);
-    for (const IrisShape& shape :
-         {IrisShape{}, IrisShape{.blades = 6, .rotation_deg = 11},
-          IrisShape{.blades = 7, .rotation_deg = 3, .curvature = 0.5},
-          IrisShape{.blades = 5, .smoothing = 0.1}}) {
+    for (const IrisShape& shape : {IrisShape{}, IrisShape{.blades = 6, .rotation_deg = 11},
+                                   IrisShape{.blades = 7, .rotation_deg = 3, .curvature = 0.5},
+                                   IrisShape{.blades = 5, .smoothing = 0.1}}) {
         MatrixScene scene(lens, view, Iris(shape));
         // Sampled corners: open_area() itself is right to .5 %.
         const double tolerance = shape.smoothing > 0 ? 5e-3 : 1e-3;
@@ -145,8 +143,8 @@ TEST(MatrixGhosts, KernelsDrawThePlainCoverage) {
                 const Image out = scene.draw({{static_cast<int>(g), 0}});
                 for (int y = 0; y < view.height; y += 3) {
                     for (int x = 0; x < view.width; ++x) {
-                        const float share = ghost.coverage(
-                            scene.iris, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+                        const float share = ghost.coverage(scene.iris, static_cast<float>(x) + 0.5F,
+                                                           static_cast<float>(y) + 0.5F);
                         // Centres far outside the picture round to some hundredths of a pixel;
                         // spots are normalised to their sum.
                         ASSERT_NEAR(out.at(x, y, 0) / ghost.radiance[0], share,
@@ -307,9 +305,8 @@ double exact_energy(const Lens& lens, const Film& film, const Bounces& bounces,
             if (i % kColorStep != 0 || j % kColorStep != 0) continue;
             ++colored[row];
             for (std::size_t b = 0; b < bands.size(); ++b) {
-                const double share =
-                    tracers[b].throughput(bounces, ray) /
-                    tracers[b].throughput(Bounces{}, ray_from_light(0, 0, 0, 0));
+                const double share = tracers[b].throughput(bounces, ray) /
+                                     tracers[b].throughput(Bounces{}, ray_from_light(0, 0, 0, 0));
                 for (std::size_t c = 0; c < 3; ++c) {
                     color[row] += bands[b].rgb[c] * share * static_cast<double>(light.radiance[c]);
                 }

@@ -61,8 +61,7 @@ CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scra
                     needed = false;
                     break;
                 }
-            } else if (size == 1 ||
-                       crossing(last, disc) > crossing(scratch[size - 2], last)) {
+            } else if (size == 1 || crossing(last, disc) > crossing(scratch[size - 2], last)) {
                 break;
             }
             --size;
@@ -90,8 +89,8 @@ CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scra
 
 namespace {
 
-constexpr int kLines = 64;     // where only edges matter
-constexpr int kSamples = 20;   // per side, where pictures do
+constexpr int kLines = 64;    // where only edges matter
+constexpr int kSamples = 20;  // per side, where pictures do
 
 struct Interval {
     double low = -1e300;
@@ -212,8 +211,7 @@ OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
             }
             for (const MatrixGhost::Clip& clip : clips) {
                 if (!clip.iris) continue;
-                through_iris((fu - clip.u0) / clip.ru, (fv - clip.v0) / clip.rv,
-                             std::abs(clip.ru));
+                through_iris((fu - clip.u0) / clip.ru, (fv - clip.v0) / clip.rv, std::abs(clip.ru));
             }
             const double part = weight * length / kSamples * static_cast<double>(share);
             open.area += part;

@@ -39,8 +39,8 @@ TEST(CommonArea, EqualsCountingForRandomDiscs) {
             const double x = 10 * ((i + 0.5) / kSteps) - 5;
             double half2 = 1e9;
             for (const LineDisc& disc : discs) {
-                half2 = std::min(half2, disc.radius * disc.radius -
-                                            (x - disc.center) * (x - disc.center));
+                half2 = std::min(half2,
+                                 disc.radius * disc.radius - (x - disc.center) * (x - disc.center));
             }
             if (half2 <= 0) continue;
             area += 2 * std::sqrt(half2) * 10 / kSteps;
@@ -101,7 +101,8 @@ TEST(OpenArea, EqualsCountingForClippedIrises) {
                     }
                 }
                 const double tolerance = smoothing > 0 && blades > 0 ? 1e-2 : 3e-3;
-                // Counting is right to about 1e-3; with smooth corners, 20 x 20 points are looked at.
+                // Counting is right to about 1e-3; with smooth corners, 20 x 20 points are looked
+                // at.
                 EXPECT_NEAR(open.area, area, tolerance) << blades;
                 EXPECT_NEAR(open.area * open.middle_u, middle_u, tolerance);
             }
@@ -135,9 +136,10 @@ void compare_with_crossings(MatrixScene& scene, double tan_x, double tan_y) {
             for (const CrossingMatrix& crossing : matrices.crossings) {
                 const double x = crossing.matrix.x.a * px - crossing.matrix.x.b * tan_x;
                 const double y = crossing.matrix.y.a * py - crossing.matrix.y.b * tan_y;
-                clip = std::max(clip, std::hypot(x, y) /
-                                          lens.faces()[static_cast<std::size_t>(crossing.face)]
-                                              .semi_aperture_mm);
+                clip = std::max(
+                    clip,
+                    std::hypot(x, y) /
+                        lens.faces()[static_cast<std::size_t>(crossing.face)].semi_aperture_mm);
             }
             const double sensor_x = matrices.to_sensor.x.a * px - matrices.to_sensor.x.b * tan_x;
             const double sensor_y = matrices.to_sensor.y.a * py - matrices.to_sensor.y.b * tan_y;
@@ -310,13 +312,12 @@ TEST(MatrixColors, TablesEqualTheRayThroughTheMiddle) {
             const GhostMatrices matrices = ghost_matrices(lens, scene.list[g], kLineDNm);
             const auto& stop =
                 matrices.crossings[static_cast<std::size_t>(matrices.stop_crossings.back())];
-            const Ray ray = ray_from_light(tangent, 0, stop.matrix.x.b * tangent / stop.matrix.x.a,
-                                           0);
+            const Ray ray =
+                ray_from_light(tangent, 0, stop.matrix.x.b * tangent / stop.matrix.x.a, 0);
             double expected[3] = {};
             for (std::size_t i = 0; i < bands.size(); ++i) {
-                const double share =
-                    tracers[i].throughput(scene.list[g], ray) /
-                    tracers[i].throughput(Bounces{}, ray_from_light(0, 0, 0, 0));
+                const double share = tracers[i].throughput(scene.list[g], ray) /
+                                     tracers[i].throughput(Bounces{}, ray_from_light(0, 0, 0, 0));
                 for (std::size_t c = 0; c < 3; ++c) expected[c] += bands[i].rgb[c] * share;
             }
             const sources::Light light = test_light(scene.view, tangent, 0);

@@ -128,8 +128,8 @@ HWY_INLINE V light_through(const PieceMask& mask, const Mesh& mesh, const MeshGr
         const V distance = iris_distance(d, mask.iris, u, v);
         const V beside_i = iris_distance(d, mask.iris, hn::Add(u, ui), hn::Add(v, vi));
         const V beside_j = iris_distance(d, mask.iris, hn::Add(u, uj), hn::Add(v, vj));
-        light = hn::Mul(
-            light, inside(distance, hn::Sub(beside_i, distance), hn::Sub(beside_j, distance)));
+        light = hn::Mul(light,
+                        inside(distance, hn::Sub(beside_i, distance), hn::Sub(beside_j, distance)));
     }
     if (mask.extra) {
         HWY_ALIGN float us[kLanes];
@@ -145,15 +145,14 @@ HWY_INLINE V light_through(const PieceMask& mask, const Mesh& mesh, const MeshGr
         hn::Store(hn::Sqrt(area), d, widths);
         const V column = hn::Iota(d, static_cast<float>(group.column + lane) + t);
         hn::Store(hn::MulAdd(column, set(mesh.entrance_step_x), set(mesh.entrance_x)), d, xs);
-        hn::Store(set(mesh.entrance_y + (static_cast<float>(group.row) + tj) *
-                                            mesh.entrance_step_y),
-                  d, ys);
+        hn::Store(
+            set(mesh.entrance_y + (static_cast<float>(group.row) + tj) * mesh.entrance_step_y), d,
+            ys);
         hn::Store(light, d, lights);
-        const float pieces = static_cast<float>(group.pieces_i) *
-                             static_cast<float>(group.pieces_j);
+        const float pieces =
+            static_cast<float>(group.pieces_i) * static_cast<float>(group.pieces_j);
         mask.extra(mask.context, us, vs, widths, xs, ys,
-                   std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y / pieces), kLanes,
-                   lights);
+                   std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y / pieces), kLanes, lights);
         light = hn::Load(d, lights);
     }
     return light;
@@ -175,12 +174,11 @@ HWY_INLINE Overlap lay(V middle, V width) {
 HWY_INLINE void scatter(const MeshTile& tile, const Overlap& x, const Overlap& y, V energy) {
     const D d;
     const hn::Rebind<std::int32_t, D> di;
-    const M kept = hn::And(
-        hn::And(hn::Ne(energy, hn::Zero(d)),
-                hn::And(hn::Ge(x.first, set(static_cast<float>(tile.x0 - 1))),
-                        hn::Lt(x.first, set(static_cast<float>(tile.x1))))),
-        hn::And(hn::Ge(y.first, set(static_cast<float>(tile.y0 - 1))),
-                hn::Lt(y.first, set(static_cast<float>(tile.y1)))));
+    const M kept = hn::And(hn::And(hn::Ne(energy, hn::Zero(d)),
+                                   hn::And(hn::Ge(x.first, set(static_cast<float>(tile.x0 - 1))),
+                                           hn::Lt(x.first, set(static_cast<float>(tile.x1))))),
+                           hn::And(hn::Ge(y.first, set(static_cast<float>(tile.y0 - 1))),
+                                   hn::Lt(y.first, set(static_cast<float>(tile.y1)))));
     const std::size_t count = hn::CountTrue(d, kept);
     if (count == 0) return;
     const V upper = hn::Mul(energy, y.share);
@@ -250,9 +248,8 @@ void draw(const Mesh& mesh, const MeshGroup& group, const PieceMask& mask, const
             continue;
         }
         for (int lane = 0; lane < kGroup; lane += kLanes) {
-            const M exist =
-                hn::FirstN(d, static_cast<std::size_t>(
-                                  std::clamp(mesh.columns - 2 - group.column - lane, 0, kLanes)));
+            const M exist = hn::FirstN(d, static_cast<std::size_t>(std::clamp(
+                                              mesh.columns - 2 - group.column - lane, 0, kLanes)));
             const V per_piece =
                 hn::IfThenElseZero(exist, hn::Mul(load(shares + lane), set(step_i * step_j)));
             if (hn::AllTrue(d, hn::Eq(per_piece, hn::Zero(d)))) continue;
@@ -269,8 +266,7 @@ void draw(const Mesh& mesh, const MeshGroup& group, const PieceMask& mask, const
                 const V yj = between(t, line.yj + lane + 1, 1);
                 V energy = hn::Mul(per_piece, between(t, line.power + lane + 1, 1));
                 if (masked) {
-                    energy = hn::Mul(energy,
-                                     light_through(mask, mesh, group, line, lane, t, tj));
+                    energy = hn::Mul(energy, light_through(mask, mesh, group, line, lane, t, tj));
                 }
                 scatter(tile, lay(x, width_of(xi, xj)), lay(y, width_of(yi, yj)), energy);
             }
@@ -331,9 +327,8 @@ int classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* sta
             bool any = false;
             for (int lane = 0; lane < kGroup; lane += kLanes) {
                 const std::ptrdiff_t at = row * s + column + lane;
-                const M exists = hn::FirstN(
-                    d, static_cast<std::size_t>(
-                           std::clamp(mesh.columns - 2 - column - lane, 0, kLanes)));
+                const M exists = hn::FirstN(d, static_cast<std::size_t>(std::clamp(
+                                                   mesh.columns - 2 - column - lane, 0, kLanes)));
                 const CellBounds clip(mesh.clip + at, s);
                 const CellBounds us(mesh.u + at, s);
                 const CellBounds vs(mesh.v + at, s);
@@ -350,15 +345,16 @@ int classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* sta
                 const M passes = hn::And(
                     hn::And(exists, hn::Lt(hn::Sub(clip.low, spread), set(1))),
                     hn::And(hn::Lt(clip.low, lost), hn::Lt(near, set(options.outer_radius))));
-                const M corner_missing = hn::AndNot(all_there, hn::And(passes, hn::Lt(clip.low, set(1))));
+                const M corner_missing =
+                    hn::AndNot(all_there, hn::And(passes, hn::Lt(clip.low, set(1))));
                 const M live = hn::And(passes, all_there);
                 // Where it is.
                 const CellBounds xs(mesh.x + at, s);
                 const CellBounds ys(mesh.y + at, s);
-                const V reach_x = hn::MulAdd(set(0.25F), hn::Sub(xs.high, xs.low),
-                                             set(1.5F + options.blur_px));
-                const V reach_y = hn::MulAdd(set(0.25F), hn::Sub(ys.high, ys.low),
-                                             set(1.5F + options.blur_px));
+                const V reach_x =
+                    hn::MulAdd(set(0.25F), hn::Sub(xs.high, xs.low), set(1.5F + options.blur_px));
+                const V reach_y =
+                    hn::MulAdd(set(0.25F), hn::Sub(ys.high, ys.low), set(1.5F + options.blur_px));
                 const V low_x = hn::Sub(xs.low, reach_x);
                 const V low_y = hn::Sub(ys.low, reach_y);
                 const V high_x = hn::Add(xs.high, reach_x);
@@ -381,8 +377,7 @@ int classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* sta
                 const M rough = hn::Or(hn::Gt(hn::Mul(off, set(0.016F)), set(options.tolerance_px)),
                                        hn::Gt(extent, set(kLargestCell)));
                 const M drawn = hn::And(live, seen);
-                const M refined =
-                    hn::Or(hn::And(drawn, rough), corner_missing);
+                const M refined = hn::Or(hn::And(drawn, rough), corner_missing);
                 hn::StoreU(hn::IfThenElseZero(drawn, set(1)), d, mesh.share + at);
                 for (int k = 0; k < kLanes && column + lane + k + 2 < mesh.columns; ++k) {
                     state[static_cast<std::ptrdiff_t>(row) * mesh.columns + column + lane + k] =
@@ -390,9 +385,8 @@ int classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* sta
                 }
                 if (!hn::AllFalse(d, hn::Or(drawn, refined))) {
                     HWY_ALIGN float kinds[kLanes];
-                    hn::Store(hn::IfThenElse(refined, set(2),
-                                             hn::IfThenElseZero(drawn, set(1))),
-                              d, kinds);
+                    hn::Store(hn::IfThenElse(refined, set(2), hn::IfThenElseZero(drawn, set(1))), d,
+                              kinds);
                     for (int k = 0; k < kLanes && column + lane + k + 2 < mesh.columns; ++k) {
                         state[static_cast<std::ptrdiff_t>(row) * mesh.columns + column + lane + k] =
                             static_cast<std::uint8_t>(kinds[k]);
@@ -400,12 +394,12 @@ int classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* sta
                 }
                 if (hn::AllFalse(d, drawn)) continue;
                 any = true;
-                along = hn::Max(along, hn::IfThenElseZero(
-                                           drawn, hn::Max(change_along(mesh.x + at, 1, s),
-                                                          change_along(mesh.y + at, 1, s))));
-                across = hn::Max(across, hn::IfThenElseZero(
-                                             drawn, hn::Max(change_along(mesh.x + at, s, 1),
-                                                            change_along(mesh.y + at, s, 1))));
+                along = hn::Max(
+                    along, hn::IfThenElseZero(drawn, hn::Max(change_along(mesh.x + at, 1, s),
+                                                             change_along(mesh.y + at, 1, s))));
+                across = hn::Max(
+                    across, hn::IfThenElseZero(drawn, hn::Max(change_along(mesh.x + at, s, 1),
+                                                              change_along(mesh.y + at, s, 1))));
                 x0 = hn::Min(x0, hn::IfThenElse(drawn, low_x, set(1e9F)));
                 y0 = hn::Min(y0, hn::IfThenElse(drawn, low_y, set(1e9F)));
                 x1 = hn::Max(x1, hn::IfThenElse(drawn, high_x, set(-1e9F)));
@@ -417,7 +411,8 @@ int classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* sta
             if (!any) continue;
             const auto pieces = [&](V change) {
                 const float most = hn::GetLane(hn::MaxOfLanes(d, change));
-                return static_cast<std::int16_t>(std::clamp(std::ceil(1.05F * most), 1.0F, kMostPieces));
+                return static_cast<std::int16_t>(
+                    std::clamp(std::ceil(1.05F * most), 1.0F, kMostPieces));
             };
             group.pieces_i = pieces(along);
             group.pieces_j = pieces(across);

@@ -21,9 +21,9 @@ inline constexpr int kGroup = 16;  // cells along a row that are drawn together
 struct MeshGroup {
     std::int16_t row = 0;
     std::int16_t column = 0;
-    std::int16_t pieces_i = 1;  // each cell is divided into so many along a row ...
-    std::int16_t pieces_j = 1;  // ... and across
-    bool masked = false;        // some aperture may cut through
+    std::int16_t pieces_i = 1;             // each cell is divided into so many along a row ...
+    std::int16_t pieces_j = 1;             // ... and across
+    bool masked = false;                   // some aperture may cut through
     float x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // bounds of what they draw on, pixels of the level
 };
 
@@ -47,15 +47,15 @@ inline constexpr int kMeshPadding = 3 * kGroup;  // floats behind the last row t
 
 // What kind of cells a mesh has.
 enum CellState : std::uint8_t {
-    kCellDead = 0,     // nothing passes, or outside the picture
+    kCellDead = 0,  // nothing passes, or outside the picture
     kCellDrawn = 1,
     kCellRefined = 2,  // to be traced again more finely
 };
 
 struct ClassifyOptions {
-    float inner_radius = 1;   // within it the iris is open; below 0: never
-    float outer_radius = 1;   // beyond it, closed
-    float blur_px = 0;        // pieces reach so much farther
+    float inner_radius = 1;                // within it the iris is open; below 0: never
+    float outer_radius = 1;                // beyond it, closed
+    float blur_px = 0;                     // pieces reach so much farther
     float x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // of the level that can be drawn on, pixels
     float tolerance_px = 0.25F;            // cells whose cubic may be farther off are refined
 };
