@@ -36,10 +36,10 @@ float iris_coverage(const Iris& iris, const Aperture& aperture, float u, float v
     }
     float growth = std::abs(aperture.sx);
     if (std::abs(aperture.sx) != std::abs(aperture.sy)) {
-        const float along_x =
-            iris.distance(u + 0.5F * aperture.sx, v) - iris.distance(u - 0.5F * aperture.sx, v);
-        const float along_y =
-            iris.distance(u, v + 0.5F * aperture.sy) - iris.distance(u, v - 0.5F * aperture.sy);
+        const float along_x = iris.distance(u + 0.5F * aperture.sx, v) -
+                              iris.distance(u - 0.5F * aperture.sx, v);
+        const float along_y = iris.distance(u, v + 0.5F * aperture.sy) -
+                              iris.distance(u, v - 0.5F * aperture.sy);
         growth = std::max(std::hypot(along_x, along_y), 1e-6F);
     }
     return aperture.coverage(iris.distance(u, v) - 1, growth);
@@ -60,8 +60,8 @@ float MatrixGhost::coverage(const Iris& iris, float x, float y) const noexcept {
             (spot_yy * dx * dx - 2 * spot_xy * dx * dy + spot_xx * dy * dy) / (8 * determinant);
         // Of unit integral over pixels: 3 / (8 pi sqrt(det)); times the open area.
         constexpr float kPeak = 3.0F / 8;
-        return q < 1 ? kPeak * open_radius_px * open_radius_px / std::sqrt(determinant) * (1 - q) *
-                           (1 - q)
+        return q < 1 ? kPeak * open_radius_px * open_radius_px / std::sqrt(determinant) *
+                           (1 - q) * (1 - q)
                      : 0.0F;
     }
     const float apothem = iris.shape().blades == 0 ? 1.0F : static_cast<float>(iris.apothem());

@@ -49,7 +49,8 @@ void for_pieces(const MatrixKernels& kernels, const MatrixDrawing& drawing,
     begin = std::max(begin, drawing.row_begin);
     end = std::min(end, drawing.row_end);
     for (int y = begin; y < end; ++y) {
-        const RowSpan any = row_chords(drawing, y, -level.margin, level.width + level.margin).any;
+        const RowSpan any =
+            row_chords(drawing, y, -level.margin, level.width + level.margin).any;
         for (int x = any.begin; x < any.end; x += kChunk) {
             const int count = std::min(kChunk, any.end - x);
             picture_row(kernels, drawing, y, x, count, share);
@@ -95,7 +96,8 @@ struct MatrixGhosts::Impl {
           kernels(matrix_kernels()) {
         if (lens_occluder != nullptr) occluder = *lens_occluder;
         if (!options.ghost_texture.empty()) texture = texture_pyramid(options.ghost_texture);
-        pupil = {&iris, texture.empty() ? nullptr : &texture, occluder ? &*occluder : nullptr};
+        pupil = {&iris, texture.empty() ? nullptr : &texture,
+                 occluder ? &*occluder : nullptr};
         if (options.look == Look::kBlog) blog.emplace(lens, iris, film, ghosts);
         placement.emplace(lens, film, pupil, blog ? std::span<const Bounces>() : ghosts);
         edges_per_ghost = static_cast<std::size_t>(max_outline_edges(iris));
@@ -103,9 +105,8 @@ struct MatrixGhosts::Impl {
         parts.resize(ghosts.size() * kMaxOutlineParts);
         edges.resize(ghosts.size() * edges_per_ghost);
         for (int i = 0; i < max_workers(); ++i) {
-            workers.push_back(
-                {InsideChanges(-Canvas::kMargin, film.width + 2 * Canvas::kMargin + 1),
-                 std::vector<const MatrixDrawing*>(ghosts.size())});
+            workers.push_back({InsideChanges(-Canvas::kMargin, film.width + 2 * Canvas::kMargin + 1),
+                               std::vector<const MatrixDrawing*>(ghosts.size())});
         }
     }
 
@@ -156,8 +157,8 @@ void MatrixGhosts::Impl::prepare(const GhostDraw& draw, std::size_t slot) noexce
         correction = sum > 0 ? kPi * radius * radius / sum : 0;
     }
     for (int c = 0; c < 3; ++c) {
-        drawing.rgb[c] =
-            draw.gain[c] * static_cast<float>(static_cast<double>(ghost.radiance[c]) * correction);
+        drawing.rgb[c] = draw.gain[c] * static_cast<float>(
+                                            static_cast<double>(ghost.radiance[c]) * correction);
     }
 }
 
@@ -195,7 +196,9 @@ void MatrixGhosts::place(const sources::Light& light) noexcept {
     }
 }
 
-std::span<const MatrixGhost> MatrixGhosts::placements() const noexcept { return impl_->placements; }
+std::span<const MatrixGhost> MatrixGhosts::placements() const noexcept {
+    return impl_->placements;
+}
 
 void MatrixGhosts::draw(std::span<const GhostDraw> ghosts, Canvas& canvas) noexcept {
     Impl& impl = *impl_;
@@ -219,7 +222,8 @@ void MatrixGhosts::draw(std::span<const GhostDraw> ghosts, Canvas& canvas) noexc
         const CanvasLevel& level = canvas.level(l);
         const int begin = (task - tasks_before[l]) * kRowsPerTask - level.margin;
         const int end = std::min(begin + kRowsPerTask, level.height + level.margin);
-        impl.draw_band(level, count, begin, end, impl.workers[static_cast<std::size_t>(worker)]);
+        impl.draw_band(level, count, begin, end,
+                       impl.workers[static_cast<std::size_t>(worker)]);
     });
 }
 
