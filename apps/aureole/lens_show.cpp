@@ -217,6 +217,9 @@ void LensShow::run() {
     std::string text = facts_text(json, title_of(whole, position));
     if (sweep) {
         std::vector<double> angles = angles_deg;
+        if (angles.empty() && ready.prescription().field_deg == 0) {
+            session.note("no field is stated: the sweep ends at the corner of 36 mm x 24 mm");
+        }
         constexpr int kSteps = 10;
         for (int i = 0; i <= kSteps && angles_deg.empty(); ++i) {
             angles.push_back(half_field_deg(ready) * i / kSteps);

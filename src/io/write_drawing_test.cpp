@@ -148,16 +148,16 @@ TEST(WriteDrawing, OverlapsAreEvenOddAndOpacityMixes) {
     const TemporaryFolder folder;
     Drawing drawing = sheet();
     drawing.items.clear();
-    // A square ring in one contour: its middle is crossed twice.
+    // A square in a square in one contour, both clockwise: the middle is wound around twice.
     drawing.items.push_back(DrawingArea{{{10, 10},
                                          {40, 10},
                                          {40, 40},
                                          {10, 40},
                                          {10, 10},
                                          {20, 20},
-                                         {20, 30},
-                                         {30, 30},
                                          {30, 20},
+                                         {30, 30},
+                                         {20, 30},
                                          {20, 20}},
                                         kBlack,
                                         {},

@@ -159,9 +159,32 @@ TEST(CrossSection, RaysFillTheStopAndThoseBesideItEndThere) {
     }
 }
 
+TEST(CrossSection, RaysThatHousingsEndReachTheirRims) {
+    const Lens lens = shipped("nikon-28-75");
+    const Measured measured(lens, {.field_angles_deg = {0, 15}, .rays_per_field = 9});
+    int ended = 0;
+    for (const std::size_t field : {0U, 1U}) {
+        for (const auto& ray : measured.rays(field, true)) {
+            const SectionPoint end = ray.back();
+            // Those that the frame cut before are not told apart by where they end.
+            if (std::abs(end.y_mm) > 1.05 * lens.faces()[0].semi_aperture_mm) continue;
+            ++ended;
+            const auto faces = lens.faces();
+            EXPECT_TRUE(std::any_of(faces.begin(), faces.end(),
+                                    [&](const Face& face) {
+                                        return std::abs(rim_z_mm(face) - end.z_mm) < 1e-9 &&
+                                               std::abs(end.y_mm) > face.semi_aperture_mm;
+                                    }))
+                << "a ray ends at z = " << end.z_mm << ", y = " << end.y_mm;
+        }
+    }
+    EXPECT_GE(ended, 12);
+}
+
 TEST(CrossSection, AGhostGoesBackOnceAndLandsWhereLinearOpticsSays) {
     // Stopped far down, so that rays stay near the axis.
-    const Lens lens = shipped("heliar", 90);
+    const Lens lens = shipped("heliar", 180);
+    int followed = 0;
     for (const Bounces& ghost : enumerate_ghosts(lens, GhostSet::kAll)) {
         CrossSectionOptions options;
         options.ghost = ghost;
@@ -184,10 +207,14 @@ TEST(CrossSection, AGhostGoesBackOnceAndLandsWhereLinearOpticsSays) {
         }
         // A ghost larger than the frame leaves it.
         if (out.size() != 3 || in.size() != 3) continue;
+        ++followed;
         for (std::size_t i = 0; i < 3; ++i) {
-            EXPECT_NEAR(out[i], to_sensor.y.a * in[i], 0.02 * std::abs(to_sensor.y.a) + 1e-6);
+            // 0.3 mm from the axis, where the steepest radius is 28 mm: linear to a few (0.3 /
+            // 28)^2.
+            EXPECT_NEAR(out[i], to_sensor.y.a * in[i], 1e-3 * std::abs(out[i]) + 1e-9);
         }
     }
+    EXPECT_GE(followed, 24);
 }
 
 TEST(CrossSection, CylindersAreFlatAlongTheirAxis) {
@@ -199,13 +226,13 @@ TEST(CrossSection, CylindersAreFlatAlongTheirAxis) {
         const Lens lens(table);
         double left = HUGE_VAL;
         double right = -HUGE_VAL;
-        for (const SectionPoint& point : face_curve(lens.faces()[0], 5)) {
+        for (const SectionPoint& point : face_curve(lens.faces()[1], 5)) {
             left = std::min(left, point.z_mm);
             right = std::max(right, point.z_mm);
         }
         return right - left;
     };
-    const double radius = std::abs(table.surfaces[0].radius_mm);
+    const double radius = std::abs(table.surfaces[1].radius_mm);
     ASSERT_GT(radius, 0);
     const double sag = radius - std::sqrt(radius * radius - 25);
     EXPECT_NEAR(spread(Profile::kRotational), sag, 1e-9);

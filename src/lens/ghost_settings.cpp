@@ -1,7 +1,6 @@
 #include "aureole/lens/ghost_settings.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <sstream>
 
 #include "aureole/base/error.h"
+#include "lens/toml_text.h"
 
 namespace aureole::lens {
 namespace {
@@ -147,15 +147,6 @@ class Entry {
     const toml::table& table_;
 };
 
-toml::table parsed(std::string_view text, const std::string& file) {
-    try {
-        return toml::parse(text, file);
-    } catch (const toml::parse_error& error) {
-        throw FileError(file, fmt::format("line {}: is not TOML: {}", error.source().begin.line,
-                                          error.description()));
-    }
-}
-
 }  // namespace
 
 std::string ghosts_to_toml(std::string_view lens, std::span<const Bounces> all,
@@ -196,7 +187,7 @@ std::string ghosts_to_toml(std::string_view lens, std::span<const Bounces> all,
 
 std::vector<GhostSetting> ghosts_from_toml(std::string_view text, const std::string& file,
                                            std::span<const Bounces> all) {
-    const toml::table root = parsed(text, file);
+    const toml::table root = toml_table(text, file);
     for (const auto& [key, node] : root) {
         if (key.str() != "lens" && key.str() != "ghost") {
             throw FileError(file, fmt::format("line {}: unknown key {}: must be lens or [[ghost]]",

@@ -19,8 +19,6 @@
 namespace aureole::lens {
 namespace {
 
-constexpr double kGreenMm = mm_from_nm(550);
-
 void check(double pupil_diameter_mm, const wave::KernelGrid& grid,
            const StarburstOptions& options) {
     if (!(pupil_diameter_mm > 0) || !std::isfinite(pupil_diameter_mm)) {
@@ -94,18 +92,6 @@ std::array<double, 3> energy_outside(const Image& kernel) {
     return outside;
 }
 
-// Where the raster hands over to the law: within a quarter of its width, beyond which what was
-// folded back into the band grows, and where fringes are much finer than a pixel; a wider middle
-// would only cost time.
-double raster_end(const wave::ApertureGrid& aperture, const wave::KernelGrid& grid) {
-    constexpr double kShareOfRaster = 0.26;
-    constexpr double kWidestPx = 400;
-    const double samples_per_pixel =
-        aperture.extent_mm / (kGreenMm * grid.view().focal_length_px());
-    const double widest = std::max(kWidestPx * samples_per_pixel, 0.1 * aperture.samples);
-    return std::min(kShareOfRaster * aperture.samples, widest);
-}
-
 }  // namespace
 
 wave::Psf starburst_psf(const Iris& iris, double pupil_diameter_mm, const wave::KernelGrid& grid,
@@ -118,10 +104,9 @@ wave::Psf starburst_psf(const Iris& iris, double pupil_diameter_mm, const wave::
         if (progress->cancelled()) throw Cancelled();
     };
     done(0);
-    const wave::ApertureGrid aperture_grid =
-        starburst_grid(iris, pupil_diameter_mm, options.samples, grid);
-    const StarburstPattern pattern = starburst_pattern(iris, pupil_diameter_mm, aperture_grid,
-                                                       raster_end(aperture_grid, grid), occluder);
+    const StarburstPattern pattern =
+        starburst_pattern(iris, pupil_diameter_mm,
+                          plan_raster(iris, pupil_diameter_mm, options.samples, grid), occluder);
     done(0.4);
     wave::Psf psf;
     psf.grid = grid;

@@ -16,15 +16,15 @@ constexpr double kGreenMm = mm_from_nm(550);
 // Around an iris whose corners are rounded: points where rays from the axis meet its edge. Most of
 // them lie on straight lines; those on the arcs keep kFlatteningMm for pupils up to 100 mm.
 wave::Shape traced_outline(const Iris& iris, double radius_mm) {
-    constexpr int kPoints = 8192;
+    constexpr int kPoints = 16384;
     std::vector<wave::Point> points(kPoints);
     parallel_for(points.size(), [&](std::size_t i, int) {
         const double angle = 2 * kPi * static_cast<double>(i) / kPoints;
         const double c = std::cos(angle);
         const double s = std::sin(angle);
-        double inside = 0;
-        double outside = 1.1 * iris.outer_radius();
-        for (int step = 0; step < 26; ++step) {
+        double inside = 0.99 * iris.inner_radius();
+        double outside = 1.01 * iris.outer_radius();
+        for (int step = 0; step < 22; ++step) {
             const double middle = 0.5 * (inside + outside);
             const bool open =
                 iris.distance(static_cast<float>(middle * c), static_cast<float>(middle * s)) <= 1;
@@ -77,19 +77,59 @@ void draw_smoothly(const wave::Shape& shape, wave::Mask& out) {
     }
 }
 
-double reach_mm(const Iris& iris, double radius_mm) { return radius_mm * iris.outer_radius(); }
+// The same window over something that can only be asked for its value at a point. Two points along
+// each axis have its second moment, and its transform to 2 % within the used part of the band; few
+// samples, which leave much between them, take the window itself.
+struct Tap {
+    double offset = 0;  // in samples
+    double weight = 0;
+};
+std::vector<Tap> window_taps(double samples_across) {
+    constexpr double kFew = 512;
+    if (samples_across > kFew) return {{-0.456, 0.5}, {0.456, 0.5}};
+    constexpr int kTaps = 16;
+    std::vector<Tap> taps;
+    for (int i = 0; i < kTaps; ++i) {
+        const double x = 2 * (i + 0.5) / kTaps - 1;
+        // (1/4, 1/2, 1/4) boxes around -1/2, 0 and 1/2: steps, 1/4 outside and 3/4 inside.
+        taps.push_back({x, (std::abs(x) < 0.5 ? 0.75 : 0.25) * 2 / kTaps});
+    }
+    return taps;
+}
 
-void multiply_occluder(wave::Mask& mask, const Occluder& occluder) {
-    const wave::ApertureGrid& grid = mask.grid;
-    const auto footprint = static_cast<float>(grid.spacing_mm());
-    parallel_for(static_cast<std::size_t>(grid.samples), [&](std::size_t j, int) {
+// Multiplies each sample that is not 0 by the mean of value(x_mm, y_mm, footprint_mm).
+template <class Value>
+void multiply_smoothly(wave::Mask& mask, double opening_mm, const Value& value) {
+    const double spacing = mask.grid.spacing_mm();
+    const std::vector<Tap> taps = window_taps(opening_mm / spacing);
+    const auto footprint = static_cast<float>((taps.size() > 2 ? 0.125 : 0.5) * spacing);
+    parallel_for(static_cast<std::size_t>(mask.grid.samples), [&](std::size_t j, int) {
         float* row = mask.row(static_cast<int>(j));
-        const auto y = static_cast<float>(grid.y_mm(static_cast<int>(j)));
-        for (int i = 0; i < grid.samples; ++i) {
+        const double y = mask.grid.y_mm(static_cast<int>(j));
+        for (int i = 0; i < mask.grid.samples; ++i) {
             if (row[i] == 0) continue;
-            row[i] *= occluder.transmission(static_cast<float>(grid.x_mm(i)), y, footprint);
+            const double x = mask.grid.x_mm(i);
+            double mean = 0;
+            for (const Tap& v : taps) {
+                for (const Tap& u : taps) {
+                    mean += u.weight * v.weight *
+                            static_cast<double>(value(static_cast<float>(x + u.offset * spacing),
+                                                      static_cast<float>(y + v.offset * spacing),
+                                                      footprint));
+                }
+            }
+            row[i] *= static_cast<float>(mean);
         }
     });
+}
+
+// 1 wherever a square of twice `half_side_mm` has samples.
+void fill_square(wave::Mask& mask, double half_side_mm) {
+    const wave::ApertureGrid& grid = mask.grid;
+    const int reach = static_cast<int>(std::ceil(half_side_mm / grid.spacing_mm())) + 1;
+    const int first = std::max(0, grid.samples / 2 - reach);
+    const int count = std::min(grid.samples, grid.samples / 2 + reach + 1) - first;
+    for (int j = first; j < first + count; ++j) std::fill_n(mask.row(j) + first, count, 1.0F);
 }
 
 }  // namespace
@@ -98,50 +138,60 @@ wave::Shape outline_of(const Iris& iris, double radius_mm) {
     const IrisShape& shape = iris.shape();
     if (shape.blades == 0) return wave::disc(radius_mm);
     if (shape.smoothing > 0) return traced_outline(iris, radius_mm);
-    return wave::regular_polygon(shape.blades, reach_mm(iris, radius_mm), shape.rotation_deg,
+    return wave::regular_polygon(shape.blades, radius_mm * iris.outer_radius(), shape.rotation_deg,
                                  shape.curvature);
 }
 
-wave::ApertureGrid starburst_grid(const Iris& iris, double pupil_diameter_mm, int samples,
-                                  const wave::KernelGrid& kernel) {
-    const double opening_mm = pupil_diameter_mm * iris.outer_radius();
-    const double pixel_mm = kGreenMm * kernel.view().focal_length_px();  // lambda / pixel
-    // At least kSamplesPerPixel across a pixel, since a sample is read as evenly bright; but not so
-    // many that the raster ends before the pattern has settled to its law.
+RasterPlan plan_raster(const Iris& iris, double pupil_diameter_mm, int samples,
+                       const wave::KernelGrid& kernel) {
+    // Beyond a quarter of its width the raster holds more and more of what was folded back into it.
+    constexpr double kUsedShare = 0.26;
+    // Fringes are lag by lag of the opening: 2 keeps all, but a pixel much larger than
+    // lambda / opening sees none of the long ones.
+    constexpr double kLeastWidth = 1.25;
+    // A sample is read as evenly bright.
     constexpr double kSamplesPerPixel = 5;
-    constexpr double kLeastReach = 128;  // samples per lambda / opening at least
-    const double fine_mm =
-        std::min(kSamplesPerPixel * pixel_mm, samples * opening_mm / kLeastReach);
-    constexpr double kWidth = 1.25;
-    return {samples, std::max(kWidth * opening_mm, fine_mm)};
+    // lambda / opening from the axis, where the core has handed over and the law may.
+    constexpr double kLeastEnd = 46;
+    // A wider raster would only cost time: whatever there is has settled to its law.
+    constexpr double kWidestPx = 400;
+
+    const double opening_mm = pupil_diameter_mm * iris.outer_radius();
+    const double sample_per_pixel_mm = kGreenMm * kernel.view().focal_length_px();
+    const double used = kUsedShare * samples;
+    const double extent_mm =
+        std::max(kLeastWidth * opening_mm,
+                 std::min(kSamplesPerPixel * sample_per_pixel_mm, used / kLeastEnd * opening_mm));
+    const double widest =
+        std::max(kWidestPx * extent_mm / sample_per_pixel_mm, kLeastEnd * extent_mm / opening_mm);
+    return {{samples, extent_mm}, std::min(used, widest)};
 }
 
 StarburstAperture draw_aperture(const Iris& iris, double pupil_diameter_mm,
                                 const wave::ApertureGrid& grid, const Occluder* occluder) {
     const double radius_mm = pupil_diameter_mm / 2;
+    const double opening_mm = pupil_diameter_mm * iris.outer_radius();
     wave::Mask mask(grid);
-    std::vector<float> gain(static_cast<std::size_t>(grid.samples) / 2 + 1, 1.0F);
     if (iris.is_image()) {
-        // A picture is smooth by itself: between its pixels it is interpolated.
-        const double unit = 1 / radius_mm;
-        const auto footprint = static_cast<float>(grid.spacing_mm() * unit);
-        parallel_for(static_cast<std::size_t>(grid.samples), [&](std::size_t j, int) {
-            float* row = mask.row(static_cast<int>(j));
-            const auto v = static_cast<float>(grid.y_mm(static_cast<int>(j)) * unit);
-            for (int i = 0; i < grid.samples; ++i) {
-                row[i] =
-                    iris.image_transmission(static_cast<float>(grid.x_mm(i) * unit), v, footprint);
-            }
+        fill_square(mask, opening_mm / 2);
+        const auto unit = static_cast<float>(1 / radius_mm);
+        multiply_smoothly(mask, opening_mm, [&](float x, float y, float footprint) {
+            return iris.image_transmission(x * unit, y * unit, footprint * unit);
         });
     } else {
         draw_smoothly(outline_of(iris, radius_mm), mask);
-        for (std::size_t k = 1; k < gain.size(); ++k) {
-            const double x = kPi * static_cast<double>(k) / grid.samples;
-            const double kept = std::sin(x) / x * std::pow(std::cos(x / 2), 2);
-            gain[k] = static_cast<float>(1 / (kept * kept));
-        }
     }
-    if (occluder != nullptr) multiply_occluder(mask, *occluder);
+    if (occluder != nullptr) {
+        multiply_smoothly(mask, opening_mm, [&](float x, float y, float footprint) {
+            return occluder->transmission(x, y, footprint);
+        });
+    }
+    std::vector<float> gain(static_cast<std::size_t>(grid.samples) / 2 + 1, 1.0F);
+    for (std::size_t k = 1; k < gain.size(); ++k) {
+        const double x = kPi * static_cast<double>(k) / grid.samples;
+        const double kept = std::sin(x) / x * std::pow(std::cos(x / 2), 2);
+        gain[k] = static_cast<float>(1 / (kept * kept));
+    }
     return {wave::field_from(mask), std::move(gain)};
 }
 

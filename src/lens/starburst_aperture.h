@@ -11,10 +11,15 @@ namespace aureole::lens {
 // The outline of an iris that is no image; `radius_mm` is that of the round stop of its area.
 wave::Shape outline_of(const Iris& iris, double radius_mm);
 
-// How large a square to transform. The larger, the finer the directions, and the sooner the raster
-// ends: docs/starburst.md derives the rule.
-wave::ApertureGrid starburst_grid(const Iris& iris, double pupil_diameter_mm, int samples,
-                                  const wave::KernelGrid& kernel);
+// The square to transform, and how far from the axis its pattern is used.
+struct RasterPlan {
+    wave::ApertureGrid grid;
+    double end_samples = 0;
+};
+// The larger the square, the finer the directions, and the sooner the raster ends:
+// docs/starburst.md derives the rule.
+RasterPlan plan_raster(const Iris& iris, double pupil_diameter_mm, int samples,
+                       const wave::KernelGrid& kernel);
 
 // Amplitude behind iris and occluder (null: clean), and by how much the samples dim its transform.
 struct StarburstAperture {

@@ -16,10 +16,11 @@ namespace {
 // The law takes over from the wide raster within the outer part of the ring that it was fitted to.
 constexpr double kHandOver = 1.4142135623730951;
 // A sample is read as evenly bright. Around the axis, where the pattern varies by its full height
-// over lambda / opening, eight samples to that are needed to have a pixel right to 1 %; farther out
-// it only matters how much light there is. The core hands over from 16 to 32 lambda / opening.
-constexpr double kCoreWidth = 8;  // extent over opening
-constexpr int kCoreSamples = 1024;
+// over lambda / opening, sixteen samples to that put .001 of the energy where it does not belong;
+// farther out it only matters how much light there is. The core hands over from 16 to 32
+// lambda / opening.
+constexpr double kCoreWidth = 16;  // extent over opening
+constexpr int kCoreSamples = 2048;
 constexpr Crossover kCore = {kCoreWidth * 16, kCoreWidth * 32};
 
 double smoothstep(double t) {
@@ -91,6 +92,28 @@ double share_beyond(const Crossover& crossover) {
     return sum * step / 3 + 1 / crossover.end;
 }
 
+// Across an edge: half a blade from a corner.
+double first_spike_rad(const IrisShape& shape) {
+    return rad_from_deg(shape.rotation_deg) + kPi / shape.blades;
+}
+
+bool has_straight_blades(const Iris& iris) {
+    return !iris.is_image() && iris.shape().blades > 0 && iris.shape().curvature == 0 &&
+           iris.shape().smoothing == 0;
+}
+
+SpikeProfile spikes_from(AngularProfile profile, const Iris& iris, double pupil_diameter_mm,
+                         const RasterPlan& plan) {
+    const IrisShape& shape = iris.shape();
+    // An edge of length l makes a spike lambda / l to either side.
+    const double edge_mm = pupil_diameter_mm * iris.outer_radius() * std::sin(kPi / shape.blades);
+    const double width = plan.grid.extent_mm / edge_mm;
+    // Of an odd number of blades, the light that each sends backwards falls between the others.
+    return {std::move(profile), first_spike_rad(shape),
+            (shape.blades % 2 == 0 ? 2 : 1) * kPi / shape.blades,
+            width / fitted_at(plan.end_samples)};
+}
+
 PatternRaster raster(AxisSquare square, double factor, double extent_mm, double end) {
     apply(square, [factor](double) { return factor; });
     return {wave::PatternIntegral(square.power.data(), static_cast<int>(square.side())), extent_mm,
@@ -106,18 +129,30 @@ double Crossover::before(double rho) const {
 }
 
 StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
-                                   const wave::ApertureGrid& grid, double end_samples,
-                                   const Occluder* occluder) {
+                                   const RasterPlan& plan, const Occluder* occluder) {
     const double opening_mm = pupil_diameter_mm * iris.outer_radius();
-    const Crossover crossover{end_samples / kHandOver, end_samples};
+    const Crossover crossover{plan.end_samples / kHandOver, plan.end_samples};
     const double core_extent_mm = kCoreWidth * opening_mm;
-    const double wide_per_core = grid.extent_mm / core_extent_mm;  // samples per sample
+    const double wide_per_core = plan.grid.extent_mm / core_extent_mm;  // samples per sample
     const bool with_core = wide_per_core < 1;
 
-    AxisSquare wide =
-        square_around_axis(draw_aperture(iris, pupil_diameter_mm, grid, occluder), end_samples);
-    AngularProfile beyond = AngularProfile::of(wide, end_samples);
+    AxisSquare wide = square_around_axis(
+        draw_aperture(iris, pupil_diameter_mm, plan.grid, occluder), plan.end_samples);
+    AngularProfile beyond = AngularProfile::of(wide, plan.end_samples);
     double total = share_beyond(crossover) * beyond.turn();
+    SpikeProfile spikes;
+    if (has_straight_blades(iris)) {
+        AngularProfile blades;
+        if (occluder == nullptr) {
+            std::swap(blades, beyond);
+        } else {
+            const AxisSquare clean = square_around_axis(
+                draw_aperture(iris, pupil_diameter_mm, plan.grid, nullptr), plan.end_samples);
+            blades = AngularProfile::of(clean, plan.end_samples);
+            beyond.take_out(blades, first_spike_rad(iris.shape()));
+        }
+        spikes = spikes_from(std::move(blades), iris, pupil_diameter_mm, plan);
+    }
     total += apply(wide, [&](double rho) {
         return crossover.before(rho) * (with_core ? 1 - kCore.before(rho / wide_per_core) : 1);
     });
@@ -129,9 +164,10 @@ StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
         total += apply(*core, [](double rho) { return kCore.before(rho); });
     }
     beyond.multiply(1 / total);
-    StarburstPattern pattern{std::nullopt,
-                             raster(std::move(wide), 1 / total, grid.extent_mm, end_samples),
-                             crossover, std::move(beyond)};
+    spikes.multiply(1 / total);
+    StarburstPattern pattern{
+        std::nullopt, raster(std::move(wide), 1 / total, plan.grid.extent_mm, plan.end_samples),
+        crossover, std::move(spikes), std::move(beyond)};
     if (core) pattern.core = raster(std::move(*core), 1 / total, core_extent_mm, kCore.end);
     return pattern;
 }

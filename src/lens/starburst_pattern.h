@@ -29,14 +29,14 @@ struct StarburstPattern {
     // The core, where light varies within a sample of the wide raster; none if that is fine enough.
     std::optional<PatternRaster> core;
     PatternRaster wide;
-    Crossover crossover;    // from the wide raster to the law, in samples of that raster
-    AngularProfile beyond;  // energy per sample of the wide raster
+    Crossover crossover;  // from the wide raster to the laws, in samples of that raster
+    // Energy per sample of the wide raster: of straight blades, and of all else.
+    SpikeProfile spikes;
+    AngularProfile beyond;
 };
 
-// Unit energy over all directions. `grid` is that of the wide raster (starburst_grid), which ends
-// at `end_samples` from the axis, at most a good quarter of its width.
+// Unit energy over all directions.
 StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
-                                   const wave::ApertureGrid& grid, double end_samples,
-                                   const Occluder* occluder);
+                                   const RasterPlan& plan, const Occluder* occluder);
 
 }  // namespace aureole::lens

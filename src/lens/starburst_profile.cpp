@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "aureole/base/parallel.h"
 #include "aureole/base/units.h"
@@ -81,7 +82,8 @@ std::vector<RingSums> sum_ring(const AxisSquare& pattern, double end, std::size_
 }  // namespace
 
 AngularProfile AngularProfile::of(const AxisSquare& pattern, double end) {
-    const auto bins = static_cast<std::size_t>(std::ceil(kPi * end));
+    // A multiple of four: an iris may be turned by a quarter, or seen in a mirror.
+    const auto bins = 4 * static_cast<std::size_t>(std::ceil(kPi * end / 4));
     std::vector<double> values(bins, 0.0);
     std::vector<double> samples(bins, 0.0);
     double total = 0;
@@ -132,6 +134,19 @@ void AngularProfile::multiply(double factor) {
     }
 }
 
+void AngularProfile::take_out(AngularProfile& other, double phi) {
+    const double width = kPi / static_cast<double>(bins_.size());
+    const double theirs = other.over(phi, width, width);
+    other.multiply(theirs > 0 ? std::min(1.0, over(phi, width, width) / theirs) : 0.0);
+    std::vector<double> rest(bins_.size());
+    for (std::size_t b = 0; b < rest.size(); ++b) {
+        rest[b] = std::max(0.0, mean_ + bins_[b].value - other.mean_ - other.bins_[b].value);
+    }
+    const double left = turn() - other.turn();
+    *this = AngularProfile(rest);
+    multiply(mean_ > 0 ? std::max(0.0, left) / turn() : 0.0);
+}
+
 double AngularProfile::second_integral(double bins) const {
     const auto size = static_cast<double>(bins_.size());
     bins -= size * std::floor(bins / size);
@@ -154,5 +169,33 @@ double AngularProfile::over(double phi, double side_a, double side_b) const {
                        second_integral(centre - inner) + second_integral(centre - outer);
     return std::max(0.0, mean_ + sum / (a * b));
 }
+
+SpikeProfile::SpikeProfile(AngularProfile profile, double first_rad, double spacing_rad,
+                           double width_rad)
+    : profile_(std::move(profile)),
+      first_rad_(first_rad),
+      spacing_rad_(spacing_rad),
+      width_rad_(width_rad) {}
+
+// A straight edge makes a spike that falls as 1 / rho^2 and stays as wide as it is: seen at an
+// angle delta from it, p(s rho, delta) = s p(rho, s delta). Around it p falls as 1 / (delta^2 rho),
+// for which that is the same as p(rho, delta) / s: that form serves for what lies farther from a
+// spike than its neighbours allow. A spike much narrower than a pixel need not be made narrower.
+double SpikeProfile::over(double phi, double side_a, double side_b, double stretch) const {
+    const double narrow_enough = 2 * width_rad_ / std::max(side_a, side_b);
+    const double s = std::min(stretch, narrow_enough);
+    if (!(s > 1)) return profile_.over(phi, side_a, side_b);
+    const double delta = std::remainder(phi - first_rad_, spacing_rad_);
+    const double t = std::clamp((s * std::abs(delta) / (0.5 * spacing_rad_) - 0.3) / 0.6, 0.0, 1.0);
+    const double far_share = t * t * (3 - 2 * t);
+    double p = 0;
+    if (far_share < 1) {
+        p += (1 - far_share) * s * profile_.over(phi + (s - 1) * delta, s * side_a, s * side_b);
+    }
+    if (far_share > 0) p += far_share / s * profile_.over(phi, side_a, side_b);
+    return p;
+}
+
+double fitted_at(double end) { return end / std::sqrt(kRing); }
 
 }  // namespace aureole::lens

@@ -12,6 +12,8 @@
 namespace aureole::lens {
 namespace {
 
+constexpr double kGreenMm = mm_from_nm(550);
+
 // Energy per squared direction cosine at a distance s from the axis is T(s) p(phi) / s^3. A sample
 // of wavelength l covers (l / L)^2 and lies at rho = s L / l: so a band adds l / L, as far as the
 // raster does not hold it.
@@ -84,10 +86,11 @@ class Pixels {
   public:
     Pixels(const StarburstPattern& pattern, std::span<const color::SpectralBand> bands,
            const wave::KernelGrid& grid)
-        : profile_(pattern.beyond),
+        : pattern_(pattern),
           colour_(pattern, bands),
           projection_(grid.projection),
-          focal_px_(grid.view().focal_length_px()) {}
+          focal_px_(grid.view().focal_length_px()),
+          fitted_sine_(fitted_at(pattern.crossover.end) * kGreenMm / pattern.wide.extent_mm) {}
 
     Pair energy(int dx, int dy) const {
         // The law is read at the middle of a pixel: right to .5 / r^2 of it at r pixels. Near the
@@ -114,20 +117,30 @@ class Pixels {
         const color::Rgb rgb = colour_.at(d.sine);
         const double density = d.area * side * side / (d.sine * d.sine * d.sine);
         const double phi = std::atan2(y, x);
+        const double stretch = d.sine / fitted_sine_;
         const double wide = side * std::abs(y) / (radius * radius);
         const double high = side * std::abs(x) / (radius * radius);
-        const double right = density * profile_.over(phi, wide, high);
-        const double left = density * profile_.over(kPi - phi, wide, high);
+        const auto profile = [&](double direction_rad) {
+            double p = 0;
+            if (!pattern_.spikes.empty()) {
+                p += pattern_.spikes.over(direction_rad, wide, high, stretch);
+            }
+            if (!pattern_.beyond.empty()) p += pattern_.beyond.over(direction_rad, wide, high);
+            return p;
+        };
+        const double right = density * profile(phi);
+        const double left = density * profile(kPi - phi);
         for (std::size_t c = 0; c < 3; ++c) {
             sum.right[c] += right * rgb[c];
             sum.left[c] += left * rgb[c];
         }
     }
 
-    const AngularProfile& profile_;
+    const StarburstPattern& pattern_;
     Colour colour_;
     Projection projection_;
     double focal_px_;
+    double fitted_sine_;  // of green light: the width of spikes has one colour
 };
 
 }  // namespace

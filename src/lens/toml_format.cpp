@@ -1,6 +1,5 @@
 // Our own format, both ways (formats.h).
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "aureole/lens/formats.h"
 #include "aureole/lens/glass.h"
 #include "lens/format_text.h"
+#include "lens/toml_text.h"
 
 namespace aureole::lens {
 namespace {
@@ -227,13 +227,7 @@ void put_surface(std::string& out, const Surface& s) {
 
 Prescription parse_toml(std::string_view text, const std::string& file) {
     require_size(text, file);
-    toml::table root;
-    try {
-        root = toml::parse(text);
-    } catch (const toml::parse_error& error) {
-        Place{file, error.source().begin.line}.fail(
-            fmt::format("no TOML: {}", error.description()));
-    }
+    const toml::table root = toml_table(text, file);
     const TableReader table(root, file, "");
     table.allow_only({"name", "patent", "source", "missing", "focal_length_mm", "f_number",
                       "field_deg", "surface", "position"});

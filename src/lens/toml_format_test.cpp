@@ -208,6 +208,9 @@ TEST(TomlFormat, WhatIsWrongIsNamedWithFileLineSurfaceAndWhatIsAllowed) {
          "position = [{ name = \"x\", focal_length_mm = 3, gaps = [{ surface = 2 }] }]",
          {"position 1: gaps 1: thickness_mm is missing"}},
         {"[[surface]]", "[surface]", {"line"}},
+        {"[[surface]]", "[#surface]]", {"line 5: line = [#surface]]", "name"}},
+        {"[[surface]]", " [[ \xC3\xBC]]", {"line 5: line =  [[ ??]]", "name"}},
+        {"[[surface]]", "[", {"line 5", "name"}},
         {"f_number = 5.0", "f_number = ", {"line 2", "no TOML"}},
         {"f_number = 5.0", "f_number = 5.0\nf_number = 4.0", {"line 3", "no TOML"}},
         {"f_number = 5.0", "f_number = -5.0", {"f_number = -5", "positive"}},
@@ -226,7 +229,9 @@ TEST(TomlFormat, FilesThatAreNoTables) {
     EXPECT_THAT(refusal(parse_toml, "\n\n"), HasSubstr("surfaces = 0"));
     EXPECT_THAT(refusal(parse_toml, std::string(100, '\0')), HasSubstr("no TOML"));
     EXPECT_THAT(refusal(parse_toml, "\xFF\xFE\xFD"), HasSubstr("no TOML"));
-    EXPECT_THAT(refusal(parse_toml, std::string(100000, '[')), HasSubstr("no TOML"));
+    EXPECT_THAT(refusal(parse_toml, std::string(100000, '[')), HasSubstr("name"));
+    EXPECT_THAT(refusal(parse_toml, "a = " + std::string(100000, '[')), HasSubstr("no TOML"));
+    EXPECT_THAT(refusal(parse_toml, "a" + std::string(100000, '.')), HasSubstr("no TOML"));
     EXPECT_THAT(refusal(parse_toml, std::string(5 << 20, ' ')), HasSubstr("5242880 bytes"));
     std::string long_lens(kTripletToml);
     for (int i = 0; i < 10000; ++i) {

@@ -148,6 +148,7 @@ MeshJob TracedGhosts::Impl::job_for(const sources::Light& light, const GhostDraw
                 .iris = mask.field(),
                 .inner_radius = mask.inner_radius(),
                 .outer_radius = mask.outer_radius(),
+                .all_masked = mask.piece_mask().extra != nullptr,
                 .film = &film,
                 .level = ghost.level};
     const double reach = ghost.blurred ? std::ceil(BlurKernel::reach(ghost.blur) + 0.5) : 0;

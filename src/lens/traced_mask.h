@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "aureole/lens/iris.h"
-#include "lens/mesh_kernels.h"
+#include "lens/mesh_pieces.h"
 #include "lens/traced_ways.h"
 
 namespace aureole::lens {

@@ -5,10 +5,11 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "lens/mesh_classify.h"
+#include "lens/mesh_facets.h"
+
 namespace aureole::lens {
 namespace {
-
-constexpr int kFields = 7;
 
 std::size_t field_floats(int columns, int rows) {
     return static_cast<std::size_t>(ray_stride(columns)) * static_cast<std::size_t>(rows) +
@@ -16,7 +17,7 @@ std::size_t field_floats(int columns, int rows) {
 }
 
 std::size_t most_groups(int columns, int rows) {
-    return static_cast<std::size_t>((columns / kGroup + 1) * rows);
+    return static_cast<std::size_t>(2 * (columns / kGroup + 1) * rows);
 }
 
 // Rays that never arrive still serve as neighbours of cells that do: their positions are continued
@@ -50,9 +51,10 @@ void continue_over_lost(const Mesh& mesh) {
     }
 }
 
-// Throughput where no ray arrives, from neighbours that do: grows by one node per round.
-void fill_empty(float* values, int columns, int rows, int stride) {
-    constexpr int kRounds = 2;
+// Throughput where no ray arrives, continued from the two nodes beyond: it falls towards total
+// reflection.
+void continue_throughput(float* values, int columns, int rows, int stride) {
+    constexpr int kRounds = 2;  // cubics reach so far
     for (int round = 0; round < kRounds; ++round) {
         for (int j = 0; j < rows; ++j) {
             for (int i = 0; i < columns; ++i) {
@@ -61,19 +63,38 @@ void fill_empty(float* values, int columns, int rows, int stride) {
                 float sum = 0;
                 int count = 0;
                 const auto take = [&](bool exists, int step) {
-                    if (!exists || !(at[step] > 0)) return;
-                    sum += at[step];
+                    if (!exists || !(at[step] > 0) || !(at[2 * step] > 0)) return;
+                    sum += std::max(0.0F, 2 * at[step] - at[2 * step]);
                     ++count;
                 };
-                take(i + 1 < columns, 1);
-                take(i > 0, -1);
-                take(j + 1 < rows, stride);
-                take(j > 0, -stride);
+                take(i + 2 < columns, 1);
+                take(i >= 2, -1);
+                take(j + 2 < rows, stride);
+                take(j >= 2, -stride);
                 if (count > 0) *at = sum / static_cast<float>(count);
             }
         }
     }
 }
+
+// Where an index of the grid lies between sparse nodes: the four around it, and the weights of a
+// cubic (Catmull & Rom 1974).
+struct SparsePlace {
+    int node[4];
+    float weight[4];
+    SparsePlace(double index, int every, int nodes) {
+        const double at = std::clamp(index / every, 0.0, static_cast<double>(nodes - 1));
+        const int first = std::min(static_cast<int>(at), nodes - 2);
+        const auto t = static_cast<float>(at - first);
+        const float t2 = t * t;
+        const float t3 = t2 * t;
+        weight[0] = 0.5F * (2 * t2 - t - t3);
+        weight[1] = 0.5F * (3 * t3 - 5 * t2 + 2);
+        weight[2] = 0.5F * (4 * t2 + t - 3 * t3);
+        weight[3] = 0.5F * (t3 - t2);
+        for (int k = 0; k < 4; ++k) node[k] = std::clamp(first + k - 1, 0, nodes - 1);
+    }
+};
 
 }  // namespace
 
@@ -88,27 +109,31 @@ TracedMesh::TracedMesh(int side)
     std::fill(memory_.data(), memory_.data() + memory_.size(), 0.0F);
     float* memory = memory_.data();
     allocate(grid_, side, side, memory);
-    memory += kFields * field_floats(side, side);
+    memory += kMeshFields * field_floats(side, side);
     sparse_ = memory;
     memory += field_floats(sparse_side_, sparse_side_);
+    sparse_row_ = memory;
+    memory += field_floats(sparse_side_, 1);
     for (Patch& patch : patches_) {
         allocate(patch.mesh, kPatchColumns, kPatchRows, memory);
-        memory += kFields * field_floats(kPatchColumns, kPatchRows);
+        memory += kMeshFields * field_floats(kPatchColumns, kPatchRows);
     }
 }
 
 std::size_t TracedMesh::bytes(int side) {
     const int sparse = (side - 1 + kSparse - 1) / kSparse + 1;
-    return sizeof(float) * (kFields * field_floats(side, side) + field_floats(sparse, sparse) +
-                            kMaxPatches * kFields * field_floats(kPatchColumns, kPatchRows));
+    return sizeof(float) * (kMeshFields * field_floats(side, side) + field_floats(sparse, sparse) +
+                            field_floats(sparse, 1) +
+                            kMaxPatches * kMeshFields * field_floats(kPatchColumns, kPatchRows));
 }
 
 void TracedMesh::allocate(Mesh& mesh, int columns, int rows, float* memory) const {
     mesh.columns = columns;
     mesh.rows = rows;
     mesh.stride = ray_stride(columns);
-    float** const fields[kFields] = {&mesh.x,    &mesh.y,     &mesh.u,    &mesh.v,
-                                     &mesh.clip, &mesh.power, &mesh.share};
+    float** const fields[kMeshFields] = {&mesh.x,     &mesh.y,      &mesh.u,
+                                         &mesh.v,     &mesh.clip,   &mesh.power,
+                                         &mesh.smooth, &mesh.radiance, &mesh.share};
     for (float** field : fields) {
         *field = memory;
         memory += field_floats(columns, rows);
@@ -122,7 +147,7 @@ void TracedMesh::trace_throughput(const MeshJob& job, const RayBundle& grid) noe
     sparse.step_y_mm *= kSparse;
     ray_kernels().throughput(job.way, sparse, sparse_);
     rays_ += static_cast<std::size_t>(sparse_side_) * static_cast<std::size_t>(sparse_side_);
-    fill_empty(sparse_, sparse_side_, sparse_side_, ray_stride(sparse_side_));
+    continue_throughput(sparse_, sparse_side_, sparse_side_, ray_stride(sparse_side_));
 }
 
 // Fills the vertices of a mesh that begins at (i, j) of the grid, `step` cells of it apart.
@@ -157,35 +182,44 @@ void TracedMesh::trace(const MeshJob& job, Mesh& mesh, double i, double j, doubl
 
     const double cell_mm2 = static_cast<double>(rays.step_x_mm) * rays.step_y_mm;
     const auto power = static_cast<float>(job.power_per_mm2 * cell_mm2);
+    interpolate_throughput(mesh, i, j, step, power);
+}
+
+void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double step,
+                                        float scale) const noexcept {
     const int stride = ray_stride(sparse_side_);
-    const auto position = [&](double index, int& whole) {
-        const double at = std::clamp(index / kSparse, 0.0, static_cast<double>(sparse_side_ - 1));
-        whole = std::min(static_cast<int>(at), sparse_side_ - 2);
-        return static_cast<float>(at - whole);
-    };
     for (int row = 0; row < mesh.rows; ++row) {
-        int y = 0;
-        const float part_y = position(j + row * step, y);
-        const float* upper = sparse_ + y * stride;
-        const float* lower = upper + stride;
+        const SparsePlace across(j + row * step, kSparse, sparse_side_);
+        for (int k = 0; k < sparse_side_; ++k) {
+            float sum = 0;
+            for (int n = 0; n < 4; ++n) sum += across.weight[n] * sparse_[across.node[n] * stride + k];
+            sparse_row_[k] = scale * sum;
+        }
         float* to = mesh.power + row * mesh.stride;
         for (int column = 0; column < mesh.columns; ++column) {
-            int x = 0;
-            const float part_x = position(i + column * step, x);
-            const float left = upper[x] + part_y * (lower[x] - upper[x]);
-            const float right = upper[x + 1] + part_y * (lower[x + 1] - upper[x + 1]);
-            to[column] = power * (left + part_x * (right - left));
+            const SparsePlace along(i + column * step, kSparse, sparse_side_);
+            float sum = 0;
+            for (int n = 0; n < 4; ++n) sum += along.weight[n] * sparse_row_[along.node[n]];
+            to[column] = std::max(0.0F, sum);
         }
     }
 }
 
+// Gives refined cells patches as long as there are any; the others are drawn as they are.
 void TracedMesh::refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
-                        int depth, const std::uint8_t* state) noexcept {
+                        int depth, std::uint8_t* state) noexcept {
     for (int row = 1; row + 2 < mesh.rows; ++row) {
+        std::uint8_t* cell = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        const float* clip = mesh.clip + row * mesh.stride;
         for (int column = 1; column + 2 < mesh.columns; ++column) {
-            const std::uint8_t* cell = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
             if (cell[column] != kCellRefined) continue;
-            if (patch_count_ == kMaxPatches) return;
+            if (depth == kMaxDepth || patch_count_ == kMaxPatches) {
+                const auto there = [&](std::ptrdiff_t k) { return clip[column + k] < kLostRay; };
+                const bool whole =
+                    there(0) && there(1) && there(mesh.stride) && there(mesh.stride + 1);
+                cell[column] = whole ? kCellMasked : kCellDead;
+                continue;
+            }
             int run = 1;
             while (run < kRun && column + run + 2 < mesh.columns &&
                    cell[column + run] == kCellRefined) {
@@ -198,8 +232,6 @@ void TracedMesh::refine(const MeshJob& job, const Mesh& mesh, double i, double j
             patch.i = i + column * step - patch.step;
             patch.j = j + row * step - patch.step;
             trace(job, patch.mesh, patch.i, patch.j, patch.step);
-            float* share = mesh.share + row * mesh.stride + column;
-            std::fill(share, share + run, 0.0F);
             column += run - 1;
         }
     }
@@ -243,40 +275,33 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     ClassifyOptions options;
     options.inner_radius = job.inner_radius;
     options.outer_radius = job.outer_radius;
-    options.blur_px = job.blur_px;
+    options.all_masked = job.all_masked;
     options.x0 = job.x0;
     options.x1 = job.x1;
     options.y0 = job.y0;
     options.y1 = job.y1;
-    const auto classify = [&](const Mesh& mesh, std::uint8_t* state) {
+    const auto finish = [&](const Mesh& mesh, double i, double j, double step, int depth,
+                            std::uint8_t* state) {
+        mesh_classifier().classify(mesh, options, state);
+        refine(job, mesh, i, j, step, depth, state);
         const int first = group_count_;
-        const int count = mesh_kernels().classify(mesh, options, state, groups_.data() + first);
+        const int count = mesh_classifier().divide(mesh, state, groups_.data() + first);
         group_count_ += count;
         add_bounds(std::span(groups_).subspan(static_cast<std::size_t>(first),
                                               static_cast<std::size_t>(count)));
         return count;
     };
-    grid_groups_ = classify(grid_, state_.data());
-    refine(job, grid_, 0, 0, 1, 0, state_.data());
+    grid_groups_ = finish(grid_, 0, 0, 1, 0, state_.data());
     // The list grows while it is worked through.
     for (int k = 0; k < patch_count_; ++k) {
         Patch& patch = patches_[static_cast<std::size_t>(k)];
         patch.first_group = group_count_;
-        patch.group_count = classify(patch.mesh, patch_state_.data());
-        if (patch.depth < kMaxDepth) {
-            refine(job, patch.mesh, patch.i, patch.j, patch.step, patch.depth, patch_state_.data());
-        }
+        patch.group_count =
+            finish(patch.mesh, patch.i, patch.j, patch.step, patch.depth, patch_state_.data());
     }
     if (getenv("DBG")) {
-        double pieces = 0, most = 0;
-        for (int g = 0; g < group_count_; ++g) {
-            double p = 16.0 * groups_[g].pieces_i * groups_[g].pieces_j;
-            pieces += p;
-            if (p > most) most = p;
-        }
-        printf("mesh groups %d patches %d pieces %g most %g bounds %d %d %d %d box %g %g %g %g\n",
-               grid_groups_, patch_count_, pieces, most, bounds_.x0, bounds_.x1, bounds_.y0,
-               bounds_.y1, job.box.x0, job.box.x1, job.box.y0, job.box.y1);
+        double pieces = 0, most = 0; for (int g = 0; g < group_count_; ++g) { double p = 16.0*groups_[g].pieces_i*groups_[g].pieces_j; pieces += p; if (p>most) most=p; }
+        printf("mesh groups %d patches %d pieces %g most %g bounds %d %d %d %d box %g %g %g %g\n", grid_groups_, patch_count_, pieces, most, bounds_.x0, bounds_.x1, bounds_.y0, bounds_.y1, job.box.x0, job.box.x1, job.box.y0, job.box.y1);
     }
 }
 
@@ -286,10 +311,13 @@ void TracedMesh::draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups
     const auto x1 = static_cast<float>(tile.x1);
     const auto y0 = static_cast<float>(tile.y0);
     const auto y1 = static_cast<float>(tile.y1);
-    const auto draw = mesh_kernels().draw;
     for (const MeshGroup& group : groups) {
         if (group.y1 < y0 || group.y0 > y1 || group.x1 < x0 || group.x0 > x1) continue;
-        draw(mesh, group, mask, tile);
+        if (group.pieces_i > 0) {
+            draw_pieces(mesh, group, mask, tile);
+        } else {
+            draw_facets(mesh, group, tile);
+        }
     }
 }
 

@@ -6,7 +6,8 @@
 
 #include "aureole/base/buffer.h"
 #include "lens/film.h"
-#include "lens/mesh_kernels.h"
+#include "lens/mesh_pieces.h"
+#include "lens/mesh_types.h"
 #include "lens/ray_grid.h"
 #include "lens/ray_kernels.h"
 
@@ -21,9 +22,9 @@ struct MeshJob {
     IrisField iris;
     float inner_radius = 1;  // of the iris; see ClassifyOptions
     float outer_radius = 1;
+    bool all_masked = false;
     const Film* film = nullptr;
     int level = 0;
-    float blur_px = 0;                     // of the level
     float x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // what can be drawn on, pixels of the level
     // Energy in pixels of the level times radiance per mm^2 of the entrance and unit throughput.
     double power_per_mm2 = 0;
@@ -50,8 +51,8 @@ class TracedMesh {
     const Mesh& grid() const noexcept { return grid_; }
 
   private:
-    // Throughput varies slowly: it is traced on every 8th ray, and interpolated.
-    static constexpr int kSparse = 8;
+    // Throughput varies slowly: it is traced for every 4th ray, and interpolated by cubics.
+    static constexpr int kSparse = 4;
     // A refined cell is divided into kFiner x kFiner; a patch is a run of up to kRun such cells
     // with a rim, one block of rays wide.
     static constexpr int kFiner = 4;
@@ -73,8 +74,10 @@ class TracedMesh {
     void allocate(Mesh& mesh, int columns, int rows, float* memory) const;
     void trace(const MeshJob& job, Mesh& mesh, double i, double j, double step) noexcept;
     void trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept;
+    void interpolate_throughput(Mesh& mesh, double i, double j, double step,
+                                float scale) const noexcept;
     void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step, int depth,
-                const std::uint8_t* state) noexcept;
+                std::uint8_t* state) noexcept;
     void add_bounds(std::span<const MeshGroup> groups) noexcept;
     void draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups, const PieceMask& mask,
                      const MeshTile& tile) const noexcept;
@@ -85,6 +88,7 @@ class TracedMesh {
     Mesh grid_;
     RayBundle bundle_;
     float* sparse_ = nullptr;
+    float* sparse_row_ = nullptr;  // between rows of it
     std::vector<std::uint8_t> state_;
     std::vector<std::uint8_t> patch_state_;
     std::vector<MeshGroup> groups_;

@@ -19,12 +19,14 @@ struct Light {
     double tan_x = 0;
     double tan_y = 0;
     // Solid angle in sr, and mean radiance over it in linear sRGB, in units of the picture:
-    // their product, the irradiance of a plane that faces the light, is what matters; alone, the
-    // radiance tells how bright the light looks.
+    // their product, the irradiance of a plane that faces the light, is what matters and is exact;
+    // alone, the radiance tells how bright the light looks. Of a light found in a picture the solid
+    // angle is (sum of L dW)^2 / sum of L^2 dW, L the luminance that counts as light: its own for
+    // an evenly bright one.
     double solid_angle_sr = 0;
     std::array<float, 3> radiance = {};
     // Second central moments of its shape, in squared tangents. A disc of angular radius a has
-    // a^2 / 4 in both.
+    // a^2 / 4 in both on the axis; off it, what that becomes on the plane of tangents.
     double moment_xx = 0;
     double moment_xy = 0;
     double moment_yy = 0;
@@ -60,7 +62,8 @@ struct FindLightsOptions {
     // At most so many lights, the strongest in energy; the others are dropped.
     int max_lights = 64;
     // Regions whose r.m.s. radius is above this share of the picture's width are cut in two across
-    // their longer axis until they are below it.
+    // their longer axis until they are below it, or below one pixel. The sums of energy, first and
+    // second moments stay those of the region.
     double max_radius = 0.02;
 };
 
@@ -72,7 +75,10 @@ struct FoundLights {
     double energy_dropped = 0;  // of those beyond max_lights
 };
 
-// `picture` has 3 channels (or 1: grey) and the size of the view. NaN and infinities count as 0.
+// `picture` has 3 channels (or 1: grey) and the size of the view. NaN, infinities and negative
+// values count as 0; so does what lies 90 deg or more from the axis. Lights stay exactly the same
+// for any number of threads. Threshold and cuts move nothing by leaps except where a region grows
+// past max_radius, or a light drops out of the strongest max_lights.
 // Throws InvalidArgument for another size, no pixels, or options out of range (threshold finite and
 // >= 0, max_lights in [1, 100000], max_radius in (0, 1]).
 FoundLights find_lights(const ConstImageView& picture, const View& view,
