@@ -31,8 +31,8 @@ SagRange sag_range(const Face& face, double radius) {
     return range;
 }
 
-// Bounds of a quantity in a cell: from its corners, and from its neighbours' too; lost rays are
-// left out.
+// Bounds of a quantity in a cell: from its corners, and from its neighbours' too; lost rays are left
+// out.
 struct Range {
     float low = kLostRay, high = -kLostRay;
     void include(float value) {
@@ -65,7 +65,8 @@ RayDirection::RayDirection(const sources::Light& light) {
     z = scale;
 }
 
-PlaneBox entrance_of_first_face(const Face& face, const RayDirection& direction, double widest) {
+PlaneBox entrance_of_first_face(const Face& face, const RayDirection& direction,
+                                   double widest) {
     const double radius = face.semi_aperture_mm * (face.stop ? widest : 1);
     const SagRange sag = sag_range(face, radius);
     const auto shifted = [&](double slope, double& low, double& high) {
@@ -123,8 +124,8 @@ PlaneBox EntranceSearch::possible(const EntranceQuery& query, std::span<const Ra
                 for (int i = std::max(0, column - 1); i <= std::min(kSide - 1, column + 2); ++i) {
                     const int at = j * kSide + i;
                     if (fields_.clip[at] >= kLostRay) continue;
-                    const bool corner =
-                        (j == row || j == row + 1) && (i - column) / 2 == 0 && i >= column;
+                    const bool corner = (j == row || j == row + 1) && (i - column) / 2 == 0 &&
+                                        i >= column;
                     pass.include(hardest[at], corner);
                     x.include(fields_.x[at], corner);
                     y.include(fields_.y[at], corner);

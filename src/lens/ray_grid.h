@@ -53,8 +53,8 @@ class EntranceSearch {
     static constexpr int kSide = 32;  // rays
 
   private:
-    PlaneBox possible(const EntranceQuery& query, std::span<const RayStep> way, const PlaneBox& box,
-                      bool last) noexcept;
+    PlaneBox possible(const EntranceQuery& query, std::span<const RayStep> way,
+                      const PlaneBox& box, bool last) noexcept;
 
     Buffer memory_;
     RayFields fields_;

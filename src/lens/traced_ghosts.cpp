@@ -158,8 +158,8 @@ MeshJob TracedGhosts::Impl::job_for(const sources::Light& light, const GhostDraw
     job.x1 = static_cast<float>(level.width) + edge;
     job.y1 = static_cast<float>(level.height) + edge;
     const double px_mm = film.mm_per_px * (1 << ghost.level);
-    job.power_per_mm2 =
-        light.solid_angle_sr * job.direction.z / (film.irradiance_per_radiance * px_mm * px_mm);
+    job.power_per_mm2 = light.solid_angle_sr * job.direction.z /
+                        (film.irradiance_per_radiance * px_mm * px_mm);
     return job;
 }
 
@@ -175,8 +175,9 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
     Impl& m = *impl_;
     if (!m.tiles) m.tiles.emplace(canvas);
     m.rays = 0;
-    parallel_for(ghosts.size(),
-                 [&](std::size_t g, int worker) { m.prepare(light, ghosts[g], canvas, worker); });
+    parallel_for(ghosts.size(), [&](std::size_t g, int worker) {
+        m.prepare(light, ghosts[g], canvas, worker);
+    });
     for (EntranceSearch& search : m.searches) m.rays += search.take_rays();
 
     // In batches: trace, then draw.
@@ -203,11 +204,12 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
         const auto paint = [&](std::size_t k) {
             const GhostDraw& draw = *items[k].draw;
             const color::SpectralBand& band = m.bands[static_cast<std::size_t>(items[k].band)];
-            const auto transmission = static_cast<float>(m.ways.axial_transmission(items[k].band));
+            const auto transmission =
+                static_cast<float>(m.ways.axial_transmission(items[k].band));
             MeshPaint out;
             out.mesh = &m.meshes[k];
             out.level = m.now[static_cast<std::size_t>(draw.ghost)].level;
-
+            
             for (std::size_t c = 0; c < 3; ++c) {
                 out.weight[c] = static_cast<float>(band.rgb[c]) * light.radiance[c] * draw.gain[c] /
                                 transmission;
