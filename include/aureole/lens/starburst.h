@@ -25,9 +25,10 @@ struct StarburstOptions {
 // direction; spikes of straight blades keep their width. `occluder` may be null: dirt on the front
 // element, of which the entrance pupil sees its middle. Pictures of irises and of dirt are taken as
 // transmission of amplitude: 0 and 1 mean the same either way, .5 lets a quarter of the energy
-// through. 4096 samples need about 270 MB beside the kernel; the time is mostly theirs, not the
-// kernel's. Throws InvalidArgument (pupil diameter not positive, a grid of even size or without
-// pitch, options, nothing open), Cancelled.
+// through.
+// 4096 samples need about 210 MB beside the kernel.
+// Throws InvalidArgument (pupil diameter not positive, a grid of even size or without pitch,
+// options, nothing open), Cancelled.
 wave::Psf starburst_psf(const Iris& iris, double pupil_diameter_mm, const wave::KernelGrid& grid,
                         const StarburstOptions& options = {}, const Occluder* occluder = nullptr,
                         Progress* progress = nullptr);
