@@ -36,7 +36,7 @@ class BlogField {
 
   private:
     float mask_at(const MatrixGhost& ghost, float u, float v) const noexcept;
-    std::array<float, kSide * kSide> distance_ = {};
+    std::array<float, kSide* kSide> distance_ = {};
 };
 
 class BlogLook {

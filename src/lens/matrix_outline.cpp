@@ -95,10 +95,10 @@ void set_rows(MatrixDrawing& drawing, double low, double high) {
 void make_spot(MatrixDrawing& drawing, const MatrixGhost& ghost, double scale) {
     const double own = static_cast<double>(ghost.open_radius_px * ghost.open_radius_px) / 4;
     const double to_level = 1 / (scale * scale);
-    const double xx = std::max(
-        (ghost.spot ? static_cast<double>(ghost.spot_xx) : own) * to_level, kLeastSpotMoment);
-    const double yy = std::max(
-        (ghost.spot ? static_cast<double>(ghost.spot_yy) : own) * to_level, kLeastSpotMoment);
+    const double xx = std::max((ghost.spot ? static_cast<double>(ghost.spot_xx) : own) * to_level,
+                               kLeastSpotMoment);
+    const double yy = std::max((ghost.spot ? static_cast<double>(ghost.spot_yy) : own) * to_level,
+                               kLeastSpotMoment);
     const double limit = 0.98 * std::sqrt(xx * yy);
     const double xy =
         ghost.spot ? std::clamp(static_cast<double>(ghost.spot_xy) * to_level, -limit, limit) : 0;

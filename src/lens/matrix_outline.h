@@ -3,8 +3,9 @@
 // A part is an aperture: the iris at one crossing, or a housing. Its signed distance from the edge,
 // in pixels and positive outside, is the maximum (the smooth one of the two largest) over its
 // edges, and its coverage falls from 1 to 0 over [-half_width, half_width] of that: half a pixel to
-// either side antialiases, more where a light of finite size blurs. The ghost is the product of its
-// parts, which is exact where two straight edges cross.
+// either side antialiases, more where a light of finite size blurs. The ghost is the least of its
+// parts: where two edges run beside each other that is right, and where they cross too much by a
+// twelfth of a pixel or less.
 #pragma once
 
 #include <cmath>

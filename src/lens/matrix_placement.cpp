@@ -91,8 +91,8 @@ MatrixGhost::Clip MatrixPlacement::clip_of(const Source& source, const MatrixPat
     if (source.extended) {
         const double moment = 0.5 * (clip.shift_x * clip.shift_x * source.moment_xx +
                                      clip.shift_y * clip.shift_y * source.moment_yy);
-        const double per_px = std::sqrt(std::abs(path.u_per_px * path.v_per_px /
-                                                 (clip.radius_u * clip.radius_v)));
+        const double per_px =
+            std::sqrt(std::abs(path.u_per_px * path.v_per_px / (clip.radius_u * clip.radius_v)));
         result.edge = static_cast<float>(half_width(moment) * per_px);
     }
     return result;
@@ -113,8 +113,8 @@ bool MatrixPlacement::open_round(const Source& source, const MatrixPath& path, M
     bool iris_listed = false;
     for (std::size_t k = 0; k <= count; ++k) {
         if (!iris_listed && (k == count || path.clips[k].gamma_x >= 0)) {
-            const double reach = pupil_.texture != nullptr ? pupil_.outer_radius(0)
-                                                           : iris.outer_radius();
+            const double reach =
+                pupil_.texture != nullptr ? pupil_.outer_radius(0) : iris.outer_radius();
             discs_[size++] = {0, reach, -1};
             iris_listed = true;
         }
@@ -211,12 +211,12 @@ void MatrixPlacement::place_one(const Source& source, std::size_t index, MatrixG
                 static_cast<float>(path.entrance_shift_y * source.slope_y),
                 static_cast<float>(path.entrance_y)};
     OpenArea open = {-1, 0, 0};
-    const bool passes = path.round ? open_round(source, path, ghost, open)
-                                   : open_stretched(source, path, ghost);
+    const bool passes =
+        path.round ? open_round(source, path, ghost, open) : open_stretched(source, path, ghost);
     if (!passes) return block(ghost);
     if (open.area < 0) {
-        open = open_area(pupil_, entrance,
-                         {ghost.clips, static_cast<std::size_t>(ghost.clip_count)});
+        open =
+            open_area(pupil_, entrance, {ghost.clips, static_cast<std::size_t>(ghost.clip_count)});
     }
     if (!(open.area > 0)) return block(ghost);
 
