@@ -226,8 +226,8 @@ void cut_straight(Chord& any, Chord& whole, const OutlineEdge& edge, float y, fl
     }
 }
 
-// Where a round edge's distance is at most this; of a stretched one, inside of it or outside (`distance` below or above
-// 0) by more than asked, since the gradient is taken at its largest.
+// Where a round edge's distance is at most this; of a stretched one, inside of it or outside
+// (`distance` below or above 0) by more than asked, since the gradient is taken at its largest.
 void cut_round(Chord& chord, const OutlineEdge& edge, float y, float distance) {
     const float q = 1 + distance * std::max(std::abs(edge.c), std::abs(edge.d));
     const float across = (y - edge.b) * edge.d;

@@ -45,8 +45,7 @@ void cut_by_blades(Open& open, Vec u, Vec v, const MatrixGhost::Clip& clip,
         const float nu = sign * iris.blades[b].normal_u;
         const float nv = sign * iris.blades[b].normal_v;
         const Vec towards = hn::MulAdd(u, hn::Set(d, nu), hn::Mul(v, hn::Set(d, nv)));
-        const Vec room =
-            hn::Set(d, iris.apothem * std::abs(clip.ru) + nu * clip.u0 + nv * clip.v0);
+        const Vec room = hn::Set(d, iris.apothem * std::abs(clip.ru) + nu * clip.u0 + nv * clip.v0);
         // A ray along the edge meets it far away, on the side that tells whether it is inside.
         const Vec tiny = hn::Set(d, 1e-9F);
         const auto leaving = hn::Ge(towards, hn::Zero(d));

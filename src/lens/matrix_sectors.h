@@ -1,5 +1,5 @@
-// What clips leave of an iris with blades, seen along rays from its middle: fast enough for hundreds
-// of ghosts per light.
+// What clips leave of an iris with blades, seen along rays from its middle: fast enough for
+// hundreds of ghosts per light.
 #pragma once
 
 #include <span>
