@@ -58,6 +58,13 @@ struct CellRange {
 
 }  // namespace
 
+PlaneBox PlaneBox::around(const PlaneBox& other) const {
+    if (empty()) return other;
+    if (other.empty()) return *this;
+    return {std::min(x0, other.x0), std::max(x1, other.x1), std::min(y0, other.y0),
+            std::max(y1, other.y1)};
+}
+
 RayDirection::RayDirection(const sources::Light& light) {
     const double scale = 1 / std::sqrt(1 + light.tan_x * light.tan_x + light.tan_y * light.tan_y);
     x = -light.tan_x * scale;
@@ -86,8 +93,9 @@ EntranceSearch::EntranceSearch() : memory_(5 * kSide * kSide) {
     for (std::size_t k = 0; k < 5; ++k) *all[k] = memory_.data() + k * kSide * kSide;
 }
 
-PlaneBox EntranceSearch::possible(const EntranceQuery& query, std::span<const RayStep> way,
-                                  const PlaneBox& box, bool last) noexcept {
+EntranceFound EntranceSearch::possible(const EntranceQuery& query,
+                                       std::span<const RayStep> way, const PlaneBox& box,
+                                       bool last) noexcept {
     static_assert(ray_stride(kSide) == kSide);
     RayBundle rays;
     rays.direction[0] = static_cast<float>(query.direction.x);
@@ -115,6 +123,8 @@ PlaneBox EntranceSearch::possible(const EntranceQuery& query, std::span<const Ra
     int last_column = -1;
     int first_row = kSide;
     int last_row = -1;
+    Range lands_x;
+    Range lands_y;
     for (int row = 0; row + 1 < kSide; ++row) {
         for (int column = 0; column + 1 < kSide; ++column) {
             CellRange pass;
@@ -142,30 +152,32 @@ PlaneBox EntranceSearch::possible(const EntranceQuery& query, std::span<const Ra
             last_column = std::max(last_column, column + 1);
             first_row = std::min(first_row, row);
             last_row = std::max(last_row, row + 1);
+            lands_x.include(in_x.low);
+            lands_x.include(in_x.high);
+            lands_y.include(in_y.low);
+            lands_y.include(in_y.high);
         }
     }
     if (last_column < 0) return {};
-    return {box.x0 + first_column * step_x, box.x0 + last_column * step_x,
-            box.y0 + first_row * step_y, box.y0 + last_row * step_y};
+    return {{box.x0 + first_column * step_x, box.x0 + last_column * step_x,
+             box.y0 + first_row * step_y, box.y0 + last_row * step_y},
+            {lands_x.low, lands_x.high, lands_y.low, lands_y.high}};
 }
 
-PlaneBox EntranceSearch::find(const EntranceQuery& query) noexcept {
+EntranceFound EntranceSearch::find(const EntranceQuery& query) noexcept {
     PlaneBox box = query.start;
     for (int round = 0; round < kMaxRounds; ++round) {
-        const PlaneBox smaller = possible(query, query.ways.front(), box, false);
+        const PlaneBox smaller = possible(query, query.ways.front(), box, false).entrance;
         if (smaller.empty()) return {};
         const bool done = smaller.x1 - smaller.x0 > 0.8 * (box.x1 - box.x0) &&
                           smaller.y1 - smaller.y0 > 0.8 * (box.y1 - box.y0);
         box = smaller;
         if (done) break;
     }
-    PlaneBox all;
+    EntranceFound all;
     for (const auto way : query.ways) {
-        const PlaneBox one = possible(query, way, box, true);
-        if (one.empty()) continue;
-        all = all.empty() ? one
-                          : PlaneBox{std::min(all.x0, one.x0), std::max(all.x1, one.x1),
-                                     std::min(all.y0, one.y0), std::max(all.y1, one.y1)};
+        const EntranceFound one = possible(query, way, box, true);
+        all = {all.entrance.around(one.entrance), all.sensor.around(one.sensor)};
     }
     return all;
 }

@@ -15,6 +15,8 @@ namespace aureole::lens {
 struct PlaneBox {
     double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
     bool empty() const { return !(x1 > x0 && y1 > y0); }
+    // The smallest box around both.
+    PlaneBox around(const PlaneBox& other) const;
 };
 
 // Unit direction of a light's rays.
@@ -39,6 +41,11 @@ struct EntranceQuery {
     PlaneBox sensor;  // where rays matter
 };
 
+struct EntranceFound {
+    PlaneBox entrance;  // empty if no ray matters
+    PlaneBox sensor;    // where those from there land
+};
+
 // Finds the part of the entrance whose rays may pass and land on the sensor.
 class EntranceSearch {
   public:
@@ -46,15 +53,15 @@ class EntranceSearch {
 
     // Shrinks the box around the rays that matter until that no longer makes it much smaller. Empty
     // if there are none.
-    PlaneBox find(const EntranceQuery& query) noexcept;
+    EntranceFound find(const EntranceQuery& query) noexcept;
     // Traced since the last call.
     std::size_t take_rays() noexcept { return std::exchange(rays_, 0); }
 
     static constexpr int kSide = 32;  // rays
 
   private:
-    PlaneBox possible(const EntranceQuery& query, std::span<const RayStep> way,
-                      const PlaneBox& box, bool last) noexcept;
+    EntranceFound possible(const EntranceQuery& query, std::span<const RayStep> way,
+                           const PlaneBox& box, bool last) noexcept;
 
     Buffer memory_;
     RayFields fields_;

@@ -36,7 +36,7 @@ struct RayStep {
 };
 
 // Reflectance at cosines k / (kReflectanceSamples - 1), linear between them.
-inline constexpr int kReflectanceSamples = 257;
+inline constexpr int kReflectanceSamples = 129;
 
 // Parallel rays that cross the plane of the first vertex on a grid, `columns` x `rows`.
 struct RayBundle {

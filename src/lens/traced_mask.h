@@ -15,6 +15,7 @@ class TracedMask {
     // Copies all; `occluder` may be null, `texture` empty (FlareOptions::ghost_texture).
     TracedMask(const Iris& iris, const Occluder* occluder, const Image& texture);
 
+    const Iris& iris() const noexcept { return iris_; }
     IrisField field() const noexcept { return iris_field(iris_); }
     // See ClassifyOptions.
     float inner_radius() const noexcept;

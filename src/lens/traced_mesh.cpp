@@ -98,6 +98,13 @@ struct SparsePlace {
 
 }  // namespace
 
+PlaneBox picture_on_sensor(const Film& film, double margin_px) {
+    const auto x_mm = [&](double px) { return (film.axis_x - px) * film.mm_per_px; };
+    const auto y_mm = [&](double px) { return (px - film.axis_y) * film.mm_per_px; };
+    return {x_mm(film.width + margin_px), x_mm(-margin_px), y_mm(-margin_px),
+            y_mm(film.height + margin_px)};
+}
+
 TracedMesh::TracedMesh(int side)
     : side_(side),
       sparse_side_((side - 1 + kSparse - 1) / kSparse + 1),

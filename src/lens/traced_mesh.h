@@ -30,6 +30,9 @@ struct MeshJob {
     double power_per_mm2 = 0;
 };
 
+// The part of the sensor that a picture shows, and so many pixels around it.
+PlaneBox picture_on_sensor(const Film& film, double margin_px);
+
 class TracedMesh {
   public:
     // For grids of `side` x `side` rays.

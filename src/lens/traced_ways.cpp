@@ -12,7 +12,31 @@ RayStep::Shape shape_of(const Face& face) {
     return RayStep::Shape::kSphere;
 }
 
-RayStep step_at(const Face& face, const Step& step, std::span<const double> index) {
+}  // namespace
+
+TracedWays::TracedWays(const Lens& lens, std::span<const Bounces> ghosts,
+                       std::span<const double> wavelengths_nm)
+    : faces_(lens.faces().begin(), lens.faces().end()), table_(lens, wavelengths_nm) {
+    for (const double wavelength_nm : wavelengths_nm) {
+        indices_.push_back(lens.indices(wavelength_nm));
+    }
+    sensor_distance_mm_ = static_cast<float>(lens.sensor_z_mm() - faces_.back().z_mm);
+    first_.push_back(0);
+    for (const Bounces& ghost : ghosts) {
+        const std::vector<Step> steps = steps_of(lens, ghost);
+        steps_.insert(steps_.end(), steps.begin(), steps.end());
+        first_.push_back(steps_.size());
+        longest_ = std::max(longest_, steps.size());
+    }
+}
+
+std::vector<RayStep> TracedWays::scratch() const { return std::vector<RayStep>(longest_); }
+
+// But for the distance and the count of stops.
+RayStep TracedWays::step_at(const Step& step, std::size_t wavelength) const noexcept {
+    const auto k = static_cast<std::size_t>(step.face);
+    const Face& face = faces_[k];
+    const std::vector<double>& index = indices_[wavelength];
     const double sign = step.backwards ? -1 : 1;
     RayStep out;
     out.shape = shape_of(face);
@@ -21,56 +45,39 @@ RayStep step_at(const Face& face, const Step& step, std::span<const double> inde
     out.stretch = static_cast<float>(1 + face.conic);
     out.along_x = face.profile == Profile::kCylinderY ? 0.0F : 1.0F;
     out.along_y = face.profile == Profile::kCylinderX ? 0.0F : 1.0F;
-    const auto k = static_cast<std::size_t>(step.face);
-    out.index_ratio =
-        static_cast<float>(step.backwards ? index[k + 1] / index[k] : index[k] / index[k + 1]);
+    out.index_ratio = static_cast<float>(step.backwards ? index[k + 1] / index[k]
+                                                        : index[k] / index[k + 1]);
     out.per_semi_aperture = static_cast<float>(1 / face.semi_aperture_mm);
-    for (std::size_t i = 0; i < std::min<std::size_t>(face.asphere.size(), kMaxAsphereTerms); ++i) {
+    const std::size_t terms = std::min<std::size_t>(face.asphere.size(), kMaxAsphereTerms);
+    for (std::size_t i = 0; i < terms; ++i) {
         out.asphere[i] = static_cast<float>(sign * face.asphere[i]);
+    }
+    if (!face.stop) {
+        out.reflectance = table_.pairs(step.face, static_cast<int>(wavelength), step.backwards);
     }
     return out;
 }
 
-}  // namespace
-
-TracedWays::TracedWays(const Lens& lens, std::span<const Bounces> ghosts,
-                       std::span<const double> wavelengths_nm)
-    : bands_(static_cast<int>(wavelengths_nm.size())), table_(lens, wavelengths_nm) {
-    const auto faces = lens.faces();
-    std::vector<std::vector<double>> indices;
-    for (const double wavelength_nm : wavelengths_nm) {
-        indices.push_back(lens.indices(wavelength_nm));
+std::span<const RayStep> TracedWays::way(int ghost, int wavelength,
+                                         std::vector<RayStep>& scratch) const noexcept {
+    const auto g = static_cast<std::size_t>(ghost);
+    const std::span<const Step> steps =
+        std::span(steps_).subspan(first_[g], first_[g + 1] - first_[g]);
+    const auto is_stop = [&](const Step& step) {
+        return faces_[static_cast<std::size_t>(step.face)].stop;
+    };
+    auto stops_left = static_cast<int>(std::count_if(steps.begin(), steps.end(), is_stop));
+    double z_mm = 0;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        RayStep& out = scratch[k];
+        out = step_at(steps[k], static_cast<std::size_t>(wavelength));
+        const double next_mm = faces_[static_cast<std::size_t>(steps[k].face)].z_mm;
+        out.distance_mm =
+            static_cast<float>(steps[k].backwards ? z_mm - next_mm : next_mm - z_mm);
+        z_mm = next_mm;
+        if (is_stop(steps[k])) out.stops_left = --stops_left;
     }
-    sensor_distance_mm_ = static_cast<float>(lens.sensor_z_mm() - faces.back().z_mm);
-    first_.push_back(0);
-    for (const Bounces& ghost : ghosts) {
-        const std::vector<Step> steps = steps_of(lens, ghost);
-        for (int band = 0; band < bands_; ++band) {
-            int stops_left = static_cast<int>(std::count_if(
-                steps.begin(), steps.end(), [&](const Step& s) { return s.face == lens.stop(); }));
-            double z_mm = 0;
-            for (const Step& step : steps) {
-                const Face& face = faces[static_cast<std::size_t>(step.face)];
-                RayStep out = step_at(face, step, indices[static_cast<std::size_t>(band)]);
-                // Only the way back runs towards the scene: `backwards` tells how light arrives.
-                out.distance_mm =
-                    static_cast<float>(step.backwards ? z_mm - face.z_mm : face.z_mm - z_mm);
-                z_mm = face.z_mm;
-                if (face.stop) {
-                    out.stops_left = --stops_left;
-                } else {
-                    out.reflectance = table_.pairs(step.face, band, step.backwards);
-                }
-                steps_.push_back(out);
-            }
-            first_.push_back(steps_.size());
-        }
-    }
-}
-
-std::span<const RayStep> TracedWays::way(int ghost, int band) const {
-    const auto at = static_cast<std::size_t>(ghost * bands_ + band);
-    return std::span(steps_).subspan(first_[at], first_[at + 1] - first_[at]);
+    return std::span(scratch).first(steps.size());
 }
 
 IrisField iris_field(const Iris& iris) {
