@@ -92,9 +92,8 @@ void classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* st
 
             const CellBounds xs(mesh.x + at, s);
             const CellBounds ys(mesh.y + at, s);
-            const M drawn =
-                hn::And(passes, hn::And(meets(Reach(xs), options.x0, options.x1),
-                                        meets(Reach(ys), options.y0, options.y1)));
+            const M drawn = hn::And(passes, hn::And(meets(Reach(xs), options.x0, options.x1),
+                                                    meets(Reach(ys), options.y0, options.y1)));
             if (hn::AllFalse(d, hn::Or(passes, broken))) continue;
             const V off = hn::Max(cubic_error(mesh.x + at, s), cubic_error(mesh.y + at, s));
             const V size = hn::Max(hn::Sub(xs.high, xs.low), hn::Sub(ys.high, ys.low));
@@ -102,7 +101,8 @@ void classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* st
             M cut = hn::Or(hn::Gt(hn::Add(clip.high, spread), set(1)),
                            hn::Gt(far, set(options.inner_radius)));
             if (options.all_masked) cut = passes;
-            store_states(hn::AndNot(hn::Or(cut, rough), passes), drawn, hn::And(drawn, cut), hn::Or(hn::And(drawn, rough), broken),
+            store_states(hn::AndNot(hn::Or(cut, rough), passes), drawn, hn::And(drawn, cut),
+                         hn::Or(hn::And(drawn, rough), broken),
                          std::min(kLanes, mesh.columns - 2 - column),
                          state + static_cast<std::ptrdiff_t>(row) * mesh.columns + column);
         }
@@ -148,9 +148,9 @@ void weigh_facets(const Mesh& mesh, const std::uint8_t* state, float* area, floa
             if (states[column] != kCellOpen && states[column] != kCellAway) continue;
             const float* corner = area + row * s + column;
             const auto [low, high] = std::minmax({corner[0], corner[1], corner[s], corner[s + 1]});
-            const bool even = low >= kSmallestFacet ? high <= kMostStretch * low
-                                                    : high <= -kSmallestFacet &&
-                                                          low >= kMostStretch * high;
+            const bool even = low >= kSmallestFacet
+                                  ? high <= kMostStretch * low
+                                  : high <= -kSmallestFacet && low >= kMostStretch * high;
             if (even) fit[row * s + column] = 1;
         }
     }
@@ -185,14 +185,19 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
     }
     // Energy of a triangle of each cell, as it is drawn and as it should be; twice and three times.
     const auto sum_triangle = [&](std::ptrdiff_t a, std::ptrdiff_t b, std::ptrdiff_t c, M which) {
-        const auto x = [&](std::ptrdiff_t k) { return hn::Sub(load(mesh.x + k), load(mesh.x + a)); };
-        const auto y = [&](std::ptrdiff_t k) { return hn::Sub(load(mesh.y + k), load(mesh.y + a)); };
-        const auto sum = [&](auto&& value) { return hn::Add(value(a), hn::Add(value(b), value(c))); };
+        const auto x = [&](std::ptrdiff_t k) {
+            return hn::Sub(load(mesh.x + k), load(mesh.x + a));
+        };
+        const auto y = [&](std::ptrdiff_t k) {
+            return hn::Sub(load(mesh.y + k), load(mesh.y + a));
+        };
+        const auto sum = [&](auto&& value) {
+            return hn::Add(value(a), hn::Add(value(b), value(c)));
+        };
         const V area = hn::Abs(hn::MulSub(x(b), y(c), hn::Mul(x(c), y(b))));
         const V radiance = sum([&](std::ptrdiff_t k) { return load(mesh.radiance + k); });
-        const V power = sum([&](std::ptrdiff_t k) {
-            return hn::Mul(load(mesh.smooth + k), load(mesh.power + k));
-        });
+        const V power = sum(
+            [&](std::ptrdiff_t k) { return hn::Mul(load(mesh.smooth + k), load(mesh.power + k)); });
         given = hn::Add(given, hn::IfThenElseZero(which, hn::Mul(area, radiance)));
         wanted = hn::Add(wanted, hn::IfThenElseZero(which, power));
     };
@@ -234,9 +239,9 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
                 if (!hn::AllFalse(d, pieced)) {
                     any_pieces = true;
                     const auto largest = [&](std::ptrdiff_t step, std::ptrdiff_t beside) {
-                        return hn::IfThenElseZero(
-                            pieced, hn::Max(change_along(mesh.x + at, step, beside),
-                                            change_along(mesh.y + at, step, beside)));
+                        return hn::IfThenElseZero(pieced,
+                                                  hn::Max(change_along(mesh.x + at, step, beside),
+                                                          change_along(mesh.y + at, step, beside)));
                     };
                     along = hn::Max(along, largest(1, s));
                     across = hn::Max(across, largest(s, 1));

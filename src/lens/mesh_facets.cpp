@@ -71,9 +71,9 @@ void draw_triangle(const Corner& a, const Corner& b, const Corner& c, const Side
             cross(ac, y, low, high);
             // Pixels whose middles are in [low, high).
             const auto whole = [&](V x) {
-                const V clamped = hn::Min(hn::Max(hn::Ceil(hn::Sub(x, set(0.5F))),
-                                                  set(static_cast<float>(tile.x0))),
-                                          set(static_cast<float>(tile.x1)));
+                const V clamped = hn::Min(
+                    hn::Max(hn::Ceil(hn::Sub(x, set(0.5F))), set(static_cast<float>(tile.x0))),
+                    set(static_cast<float>(tile.x1)));
                 return hn::ConvertTo(di, clamped);
             };
             hn::Store(whole(low), di, begin + k);

@@ -151,8 +151,8 @@ HWY_INLINE V light_through(const PieceMask& mask, const Mesh& mesh, const MeshGr
         const V distance = iris_distance(d, mask.iris, u, v);
         const V beside_i = iris_distance(d, mask.iris, hn::Add(u, ui), hn::Add(v, vi));
         const V beside_j = iris_distance(d, mask.iris, hn::Add(u, uj), hn::Add(v, vj));
-        light = hn::Mul(
-            light, inside(distance, hn::Sub(beside_i, distance), hn::Sub(beside_j, distance)));
+        light = hn::Mul(light,
+                        inside(distance, hn::Sub(beside_i, distance), hn::Sub(beside_j, distance)));
     }
     if (mask.extra) {
         HWY_ALIGN float us[kLanes];
@@ -168,15 +168,14 @@ HWY_INLINE V light_through(const PieceMask& mask, const Mesh& mesh, const MeshGr
         hn::Store(hn::Sqrt(area), d, widths);
         const V column = hn::Iota(d, static_cast<float>(group.column + lane) + t);
         hn::Store(hn::MulAdd(column, set(mesh.entrance_step_x), set(mesh.entrance_x)), d, xs);
-        hn::Store(set(mesh.entrance_y + (static_cast<float>(group.row) + tj) *
-                                            mesh.entrance_step_y),
-                  d, ys);
+        hn::Store(
+            set(mesh.entrance_y + (static_cast<float>(group.row) + tj) * mesh.entrance_step_y), d,
+            ys);
         hn::Store(light, d, lights);
-        const float pieces = static_cast<float>(group.pieces_i) *
-                             static_cast<float>(group.pieces_j);
+        const float pieces =
+            static_cast<float>(group.pieces_i) * static_cast<float>(group.pieces_j);
         mask.extra(mask.context, us, vs, widths, xs, ys,
-                   std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y / pieces), kLanes,
-                   lights);
+                   std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y / pieces), kLanes, lights);
         light = hn::Load(d, lights);
     }
     return light;
@@ -288,13 +287,12 @@ void draw(const Mesh& mesh, const MeshGroup& group, const PieceMask& mask, const
                 V energy = hn::Mul(per_piece, between(t, line.power + lane + 1, 1));
                 energy = hn::NegMulAdd(energy, facet_weight(line, lane, t, tj), energy);
                 if (masked) {
-                    energy = hn::Mul(energy,
-                                     light_through(mask, mesh, group, line, lane, t, tj));
+                    energy = hn::Mul(energy, light_through(mask, mesh, group, line, lane, t, tj));
                 }
                 const Overlap x = lay(middle_x, width_of(xi, xj));
                 const Overlap y = lay(middle_y, width_of(yi, yj));
-                const M kept = hn::And(touching(tile, x.first, y.first),
-                                       hn::Gt(energy, hn::Zero(d)));
+                const M kept =
+                    hn::And(touching(tile, x.first, y.first), hn::Gt(energy, hn::Zero(d)));
                 if (!hn::AllFalse(d, kept)) scatter(tile, x, y, kept, energy);
             }
         }

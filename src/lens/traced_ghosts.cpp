@@ -146,8 +146,7 @@ void TracedGhosts::Impl::prepare_blur(const sources::Light& light, int index,
 }
 
 MeshJob TracedGhosts::Impl::job_for(const sources::Light& light, const Item& item,
-                                    const Canvas& canvas,
-                                    std::vector<RayStep>& scratch) const {
+                                    const Canvas& canvas, std::vector<RayStep>& scratch) const {
     const GhostNow& ghost = of(*item.draw);
     const CanvasLevel& level = canvas.level(ghost.level);
     const int index = item.draw->ghost;
@@ -204,9 +203,8 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
     Impl& m = *impl_;
     if (!m.tiles) m.tiles.emplace(canvas);
     m.rays = 0;
-    parallel_for(ghosts.size(), [&](std::size_t g, int worker) {
-        m.prepare(light, ghosts[g], canvas, worker);
-    });
+    parallel_for(ghosts.size(),
+                 [&](std::size_t g, int worker) { m.prepare(light, ghosts[g], canvas, worker); });
     for (TracedBands::Probe& probe : m.probes) m.rays += probe.take_rays();
 
     // In batches: trace, then draw.
@@ -216,8 +214,8 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
         m.items.clear();
         while (next < ghosts.size() && m.items.size() < m.meshes.size()) {
             const GhostNow& ghost = m.of(ghosts[next]);
-            const int bands = ghost.in_strata ? m.bands.count() * TracedBands::kStrata
-                                              : m.bands.count();
+            const int bands =
+                ghost.in_strata ? m.bands.count() * TracedBands::kStrata : m.bands.count();
             if (ghost.light.found.entrance.empty() || band == bands) {
                 ++next;
                 band = 0;

@@ -140,8 +140,8 @@ void TracedMesh::allocate(Mesh& mesh, int columns, int rows, float* memory) cons
     mesh.columns = columns;
     mesh.rows = rows;
     mesh.stride = ray_stride(columns);
-    float** const fields[kMeshFields] = {&mesh.x,     &mesh.y,      &mesh.u,
-                                         &mesh.v,     &mesh.clip,   &mesh.power,
+    float** const fields[kMeshFields] = {&mesh.x,      &mesh.y,        &mesh.u,
+                                         &mesh.v,      &mesh.clip,     &mesh.power,
                                          &mesh.smooth, &mesh.radiance, &mesh.share};
     for (float** field : fields) {
         *field = memory;
@@ -201,7 +201,8 @@ void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double s
         const SparsePlace across(j + row * step, kSparse, sparse_side_);
         for (int k = 0; k < sparse_side_; ++k) {
             float sum = 0;
-            for (int n = 0; n < 4; ++n) sum += across.weight[n] * sparse_[across.node[n] * stride + k];
+            for (int n = 0; n < 4; ++n)
+                sum += across.weight[n] * sparse_[across.node[n] * stride + k];
             sparse_row_[k] = scale * sum;
         }
         float* to = mesh.power + row * mesh.stride;
@@ -313,8 +314,15 @@ void TracedMesh::build(const MeshJob& job) noexcept {
             finish(patch.mesh, patch.i, patch.j, patch.step, patch.depth, patch_state_.data());
     }
     if (getenv("DBG")) {
-        double pieces = 0, most = 0; for (int g = 0; g < group_count_; ++g) { double p = 16.0*groups_[g].pieces_i*groups_[g].pieces_j; pieces += p; if (p>most) most=p; }
-        printf("mesh groups %d patches %d pieces %g most %g bounds %d %d %d %d box %g %g %g %g\n", grid_groups_, patch_count_, pieces, most, bounds_.x0, bounds_.x1, bounds_.y0, bounds_.y1, job.box.x0, job.box.x1, job.box.y0, job.box.y1);
+        double pieces = 0, most = 0;
+        for (int g = 0; g < group_count_; ++g) {
+            double p = 16.0 * groups_[g].pieces_i * groups_[g].pieces_j;
+            pieces += p;
+            if (p > most) most = p;
+        }
+        printf("mesh groups %d patches %d pieces %g most %g bounds %d %d %d %d box %g %g %g %g\n",
+               grid_groups_, patch_count_, pieces, most, bounds_.x0, bounds_.x1, bounds_.y0,
+               bounds_.y1, job.box.x0, job.box.x1, job.box.y0, job.box.y1);
     }
 }
 
