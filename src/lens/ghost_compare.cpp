@@ -103,7 +103,7 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
                 .iris = mask.field(),
                 .inner_radius = mask.inner_radius(),
                 .outer_radius = mask.outer_radius(),
-                .all_masked = mask.piece_mask().extra != nullptr,
+                .all_masked = mask.mesh_mask().extra != nullptr,
                 .film = &film,
                 .x1 = static_cast<float>(film.width),
                 .y1 = static_cast<float>(film.height),
@@ -124,7 +124,7 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
         job.way = bands_.way(ghost, band, work.steps);
         work.mesh.build(job);
         std::fill(work.sums.begin(), work.sums.end(), 0.0F);
-        work.mesh.draw(mask.piece_mask(), tile);
+        work.mesh.draw(mask.mesh_mask(), tile);
         for (std::size_t c = 0; c < 3; ++c) {
             const float weight =
                 work.ghost.weights[static_cast<std::size_t>(band)][c] * light.radiance[c];

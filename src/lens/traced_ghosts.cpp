@@ -111,7 +111,7 @@ void TracedGhosts::Impl::prepare(const sources::Light& light, const GhostDraw& d
     if (ghost.light.found.entrance.empty()) return;
     if (light.moment_xx > 0 || light.moment_yy > 0) prepare_blur(light, draw.ghost, canvas);
     // Below that, a blur or coarse pixels hide the bands.
-    constexpr double kOutlinesPx = 1.5;
+    constexpr double kOutlinesPx = 3;
     const double apart_px = ghost.light.dispersion_mm / (film.mm_per_px * (1 << ghost.level));
     const double hidden_px = ghost.blurred ? BlurKernel::reach(ghost.blur) : 0;
     ghost.in_strata = apart_px > kOutlinesPx + hidden_px;
@@ -163,7 +163,7 @@ MeshJob TracedGhosts::Impl::job_for(const sources::Light& light, const Item& ite
                 .iris = mask.field(),
                 .inner_radius = mask.inner_radius(),
                 .outer_radius = mask.outer_radius(),
-                .all_masked = mask.piece_mask().extra != nullptr,
+                .all_masked = mask.mesh_mask().extra != nullptr,
                 .film = &film,
                 .level = ghost.level};
     const double reach = ghost.blurred ? std::ceil(BlurKernel::reach(ghost.blur) + 0.5) : 0;
@@ -233,7 +233,7 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
             m.rays += m.meshes[k].rays();
             if (!m.of(*m.items[k].draw).blurred) m.paints.push_back(m.paint_for(light, k));
         }
-        m.tiles->draw(m.paints, m.mask.piece_mask(), canvas);
+        m.tiles->draw(m.paints, m.mask.mesh_mask(), canvas);
         for (std::size_t k = 0; k < m.items.size();) {
             const GhostDraw* draw = m.items[k].draw;
             m.paints.clear();
@@ -242,7 +242,7 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
             }
             if (!m.of(*draw).blurred) continue;
             m.kernel.set(m.of(*draw).blur);
-            m.tiles->draw_blurred(m.paints, m.mask.piece_mask(), m.kernel, canvas);
+            m.tiles->draw_blurred(m.paints, m.mask.mesh_mask(), m.kernel, canvas);
         }
     }
 }
