@@ -68,8 +68,8 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
     if (!linear) return 2;
 
     // Around both, in pixels; the sensor's x runs against the picture's.
-    PlaneBox box = {film_.px(found.sensor.x1), film_.px(found.sensor.x0), film_.py(found.sensor.y0),
-                    film_.py(found.sensor.y1)};
+    PlaneBox box = {film_.px(found.sensor.x1), film_.px(found.sensor.x0),
+                    film_.py(found.sensor.y0), film_.py(found.sensor.y1)};
     const double reach_x = iris.outer_radius() / std::abs(placement.u_per_px) + 1;
     const double reach_y = iris.outer_radius() / std::abs(placement.v_per_px) + 1;
     box = box.around({placement.center_x - reach_x, placement.center_x + reach_x,
@@ -103,14 +103,16 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
                 .iris = mask.field(),
                 .inner_radius = mask.inner_radius(),
                 .outer_radius = mask.outer_radius(),
-                .all_masked = mask.piece_mask().extra != nullptr,
+                .all_masked = mask.mesh_mask().extra != nullptr,
                 .film = &film,
                 .x1 = static_cast<float>(film.width),
                 .y1 = static_cast<float>(film.height),
                 .power_per_mm2 = light.solid_angle_sr * direction.z /
                                  (film.irradiance_per_radiance * film.mm_per_px * film.mm_per_px)};
-    MeshTile tile{
-        .sums = work.sums.data(), .stride = bins.columns + 2, .x1 = bins.columns, .y1 = bins.rows};
+    MeshTile tile{.sums = work.sums.data(),
+                  .stride = bins.columns + 2,
+                  .x1 = bins.columns,
+                  .y1 = bins.rows};
     const auto bin_count = static_cast<std::size_t>(bins.columns * bins.rows);
     for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t k = 0; k < bin_count; ++k) {
@@ -122,7 +124,7 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
         job.way = bands_.way(ghost, band, work.steps);
         work.mesh.build(job);
         std::fill(work.sums.begin(), work.sums.end(), 0.0F);
-        work.mesh.draw(mask.piece_mask(), tile);
+        work.mesh.draw(mask.mesh_mask(), tile);
         for (std::size_t c = 0; c < 3; ++c) {
             const float weight =
                 work.ghost.weights[static_cast<std::size_t>(band)][c] * light.radiance[c];

@@ -53,21 +53,21 @@ HWY_INLINE M meets(const Reach& reach, float low, float high) {
 }
 
 // Later ones win.
-void store_states(M away, M open, M masked, M refined, int count, std::uint8_t* to) {
+void store_states(M open, M masked, M refined, int count, std::uint8_t* to) {
     const D d;
     HWY_ALIGN float kinds[kLanes];
-    V kind = hn::IfThenElseZero(away, set(kCellAway));
-    kind = hn::IfThenElse(open, set(kCellOpen), kind);
+    V kind = hn::IfThenElseZero(open, set(kCellOpen));
     kind = hn::IfThenElse(masked, set(kCellMasked), kind);
     kind = hn::IfThenElse(refined, set(kCellRefined), kind);
     hn::Store(kind, d, kinds);
     for (int k = 0; k < count; ++k) to[k] = static_cast<std::uint8_t>(kinds[k]);
 }
 
-void classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* state) {
+void classify(const Mesh& mesh, const ClassifyOptions& options) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
-    std::fill(state, state + static_cast<std::ptrdiff_t>(mesh.columns) * mesh.rows, kCellDead);
+    std::fill(mesh.state, mesh.state + static_cast<std::ptrdiff_t>(mesh.columns) * mesh.rows,
+              kCellDead);
     for (int row = 1; row + 2 < mesh.rows; ++row) {
         for (int column = 1; column + 2 < mesh.columns; column += kLanes) {
             const std::ptrdiff_t at = row * s + column;
@@ -92,19 +92,19 @@ void classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* st
 
             const CellBounds xs(mesh.x + at, s);
             const CellBounds ys(mesh.y + at, s);
-            const M drawn = hn::And(passes, hn::And(meets(Reach(xs), options.x0, options.x1),
-                                                    meets(Reach(ys), options.y0, options.y1)));
-            if (hn::AllFalse(d, hn::Or(passes, broken))) continue;
+            const M drawn =
+                hn::And(passes, hn::And(meets(Reach(xs), options.x0, options.x1),
+                                        meets(Reach(ys), options.y0, options.y1)));
+            if (hn::AllFalse(d, hn::Or(drawn, broken))) continue;
             const V off = hn::Max(cubic_error(mesh.x + at, s), cubic_error(mesh.y + at, s));
             const V size = hn::Max(hn::Sub(xs.high, xs.low), hn::Sub(ys.high, ys.low));
             const M rough = hn::Or(hn::Gt(off, set(kRough)), hn::Gt(size, set(kLargestCell)));
             M cut = hn::Or(hn::Gt(hn::Add(clip.high, spread), set(1)),
                            hn::Gt(far, set(options.inner_radius)));
-            if (options.all_masked) cut = passes;
-            store_states(hn::AndNot(hn::Or(cut, rough), passes), drawn, hn::And(drawn, cut),
-                         hn::Or(hn::And(drawn, rough), broken),
+            if (options.all_masked) cut = drawn;
+            store_states(drawn, hn::And(drawn, cut), hn::Or(hn::And(drawn, rough), broken),
                          std::min(kLanes, mesh.columns - 2 - column),
-                         state + static_cast<std::ptrdiff_t>(row) * mesh.columns + column);
+                         mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns + column);
         }
     }
 }
@@ -120,19 +120,10 @@ HWY_INLINE V area_around(const Mesh& mesh, std::ptrdiff_t at) {
     return hn::Mul(set(0.25F), cross);
 }
 
-// The largest change of a field along cells: of its parabola, which at a fold goes out and back.
-HWY_INLINE V change_along_side(const float* from, std::ptrdiff_t step) {
-    const V a = load(from);
-    const V b = load(from + step);
-    const V bend = hn::Sub(hn::Add(load(from - step), load(from + 2 * step)), hn::Add(a, b));
-    return hn::MulAdd(set(0.25F), hn::Abs(bend), hn::Abs(hn::Sub(b, a)));
-}
-HWY_INLINE V change_along(const float* from, std::ptrdiff_t step, std::ptrdiff_t beside) {
-    return hn::Max(change_along_side(from, step), change_along_side(from + beside, step));
-}
-
-// Vertices where all four cells are fit for facets; area[] by vertex is that around it.
-void weigh_facets(const Mesh& mesh, const std::uint8_t* state, float* area, float* fit) {
+// Weights of vertices: 1 where all four cells are fit for facets, whether light passes or not, so
+// that no aperture's edge is a border between the two ways of drawing. area[] by vertex receives
+// that around it; fit[] is scratch.
+void weigh_facets(const Mesh& mesh, float* area, float* fit) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
     for (int row = 1; row + 1 < mesh.rows; ++row) {
@@ -143,15 +134,22 @@ void weigh_facets(const Mesh& mesh, const std::uint8_t* state, float* area, floa
     }
     std::fill(fit, fit + s * mesh.rows, 0.0F);
     for (int row = 1; row + 2 < mesh.rows; ++row) {
-        const std::uint8_t* states = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        const std::uint8_t* states = mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        for (int column = 1; column + 2 < mesh.columns; column += kLanes) {
+            const std::ptrdiff_t at = row * s + column;
+            const CellBounds areas(area + at, s);
+            const auto even = [&](V low, V high) {
+                return hn::And(hn::Ge(low, set(kSmallestFacet)),
+                               hn::Le(high, hn::Mul(low, set(kMostStretch))));
+            };
+            const M fits = hn::And(hn::Or(even(areas.low, areas.high),
+                                          even(hn::Neg(areas.high), hn::Neg(areas.low))),
+                                   hn::Lt(CellBounds(mesh.clip + at, s).high, set(kLostRay)));
+            hn::StoreU(hn::IfThenElseZero(hn::And(fits, cells_from(mesh, column)), set(1)), d,
+                       fit + at);
+        }
         for (int column = 1; column + 2 < mesh.columns; ++column) {
-            if (states[column] != kCellOpen && states[column] != kCellAway) continue;
-            const float* corner = area + row * s + column;
-            const auto [low, high] = std::minmax({corner[0], corner[1], corner[s], corner[s + 1]});
-            const bool even = low >= kSmallestFacet
-                                  ? high <= kMostStretch * low
-                                  : high <= -kSmallestFacet && low >= kMostStretch * high;
-            if (even) fit[row * s + column] = 1;
+            if (states[column] == kCellRefined) fit[row * s + column] = 0;
         }
     }
     for (int row = 1; row + 1 < mesh.rows; ++row) {
@@ -164,12 +162,12 @@ void weigh_facets(const Mesh& mesh, const std::uint8_t* state, float* area, floa
     }
 }
 
-int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
+int divide(const Mesh& mesh, MeshGroup* groups) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
     std::fill(mesh.smooth, mesh.smooth + s * mesh.rows, 0.0F);
     std::fill(mesh.radiance, mesh.radiance + s * mesh.rows, 0.0F);
-    weigh_facets(mesh, state, mesh.radiance, mesh.share);
+    weigh_facets(mesh, mesh.radiance, mesh.share);
 
     // Radiance of facets, and what makes their energy that of the cells.
     V wanted = hn::Zero(d);
@@ -185,25 +183,20 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
     }
     // Energy of a triangle of each cell, as it is drawn and as it should be; twice and three times.
     const auto sum_triangle = [&](std::ptrdiff_t a, std::ptrdiff_t b, std::ptrdiff_t c, M which) {
-        const auto x = [&](std::ptrdiff_t k) {
-            return hn::Sub(load(mesh.x + k), load(mesh.x + a));
-        };
-        const auto y = [&](std::ptrdiff_t k) {
-            return hn::Sub(load(mesh.y + k), load(mesh.y + a));
-        };
-        const auto sum = [&](auto&& value) {
-            return hn::Add(value(a), hn::Add(value(b), value(c)));
-        };
+        const auto x = [&](std::ptrdiff_t k) { return hn::Sub(load(mesh.x + k), load(mesh.x + a)); };
+        const auto y = [&](std::ptrdiff_t k) { return hn::Sub(load(mesh.y + k), load(mesh.y + a)); };
+        const auto sum = [&](auto&& value) { return hn::Add(value(a), hn::Add(value(b), value(c))); };
         const V area = hn::Abs(hn::MulSub(x(b), y(c), hn::Mul(x(c), y(b))));
         const V radiance = sum([&](std::ptrdiff_t k) { return load(mesh.radiance + k); });
-        const V power = sum(
-            [&](std::ptrdiff_t k) { return hn::Mul(load(mesh.smooth + k), load(mesh.power + k)); });
+        const V power = sum([&](std::ptrdiff_t k) {
+            return hn::Mul(load(mesh.smooth + k), load(mesh.power + k));
+        });
         given = hn::Add(given, hn::IfThenElseZero(which, hn::Mul(area, radiance)));
         wanted = hn::Add(wanted, hn::IfThenElseZero(which, power));
     };
     int count = 0;
     for (int row = 1; row + 2 < mesh.rows; ++row) {
-        const std::uint8_t* states = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        const std::uint8_t* states = mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
         for (int column = 1; column + 2 < mesh.columns; column += kGroup) {
             MeshGroup pieces;
             pieces.row = static_cast<std::int16_t>(row);
@@ -239,15 +232,15 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
                 if (!hn::AllFalse(d, pieced)) {
                     any_pieces = true;
                     const auto largest = [&](std::ptrdiff_t step, std::ptrdiff_t beside) {
-                        return hn::IfThenElseZero(pieced,
-                                                  hn::Max(change_along(mesh.x + at, step, beside),
-                                                          change_along(mesh.y + at, step, beside)));
+                        return hn::IfThenElseZero(
+                            pieced, hn::Max(largest_changes(mesh.x + at, step, beside),
+                                            largest_changes(mesh.y + at, step, beside)));
                     };
                     along = hn::Max(along, largest(1, s));
                     across = hn::Max(across, largest(s, 1));
-                    if (!hn::AllFalse(d, hn::And(pieced, hn::Eq(kind, set(kCellMasked))))) {
-                        pieces.masked = true;
-                    }
+                }
+                if (!hn::AllFalse(d, hn::Eq(kind, set(kCellMasked)))) {
+                    facets.masked = pieces.masked = true;
                 }
                 const Reach x(CellBounds(mesh.x + at, s));
                 const Reach y(CellBounds(mesh.y + at, s));
@@ -264,8 +257,7 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
             if (any_facets) groups[count++] = facets;
             if (any_pieces) {
                 const auto parts = [](V change) {
-                    return static_cast<std::int16_t>(
-                        std::clamp(std::ceil(1.4F * highest(change)), 1.0F, kMostPieces));
+                    return static_cast<std::int16_t>(pieces_for(highest(change), kMostPieces));
                 };
                 pieces.pieces_i = parts(along);
                 pieces.pieces_j = parts(across);

@@ -50,10 +50,9 @@ void compare(const Lens& lens, const Bounces& bounces, double tan_x, double tan_
     Fields to(count);
     Buffer energy(count);
     const Iris iris;
-    std::vector<RayStep> steps = ways.scratch();
-    ray_kernels().trace(ways.way(0, 0, steps), ways.sensor_distance_mm(), rays, iris_field(iris),
+    ray_kernels().trace(ways.way(0, 0), ways.sensor_distance_mm(), rays, iris_field(iris),
                         to.fields);
-    ray_kernels().throughput(ways.way(0, 0, steps), rays, energy.data());
+    ray_kernels().throughput(ways.way(0, 0), rays, energy.data());
     const Tracer tracer(lens, wavelength_nm);
     for (int row = 0; row < rays.rows; ++row) {
         for (int column = 0; column < rays.columns; ++column) {

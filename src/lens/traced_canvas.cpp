@@ -19,7 +19,7 @@ constexpr int kReach = BlurKernel::kMaxRadius;
 
 // Draws one mesh on rows [y0, y1) through `sums`, which are zero before and after. Returns the
 // pixels of a row that it may have drawn on.
-RowSpan draw_on(const MeshPaint& paint, const PieceMask& mask, const Target& target, int y0, int y1,
+RowSpan draw_on(const MeshPaint& paint, const MeshMask& mask, const Target& target, int y0, int y1,
                 float* sums) {
     const TracedMesh::Bounds& b = paint.mesh->bounds();
     const int top = std::max(y0, b.y0);
@@ -40,7 +40,8 @@ RowSpan draw_on(const MeshPaint& paint, const PieceMask& mask, const Target& tar
         for (std::size_t c = 0; c < 3; ++c) {
             planes[c] = target.planes[c] + y * target.stride + left;
         }
-        flush_row(sums + (y - top + 1) * tile.stride + 1, right - left, paint.weight, planes);
+        flush_row(sums + (y - top + 1) * tile.stride + 1, right - left, paint.weight,
+                             planes);
     }
     // The rim.
     std::fill(sums, sums + tile.stride, 0.0F);
@@ -74,7 +75,7 @@ TracedCanvas::TracedCanvas(const Canvas& canvas) {
     scratch_tiles_.reserve(rows / kTileRows + 1);
 }
 
-void TracedCanvas::draw(std::span<const MeshPaint> meshes, const PieceMask& mask, Canvas& canvas) {
+void TracedCanvas::draw(std::span<const MeshPaint> meshes, const MeshMask& mask, Canvas& canvas) {
     parallel_for(tiles_.size(), [&](std::size_t t, int worker) {
         const Tile& tile = tiles_[t];
         const CanvasLevel& level = canvas.level(tile.level);
@@ -95,7 +96,7 @@ void TracedCanvas::draw(std::span<const MeshPaint> meshes, const PieceMask& mask
     });
 }
 
-void TracedCanvas::draw_blurred(std::span<const MeshPaint> meshes, const PieceMask& mask,
+void TracedCanvas::draw_blurred(std::span<const MeshPaint> meshes, const MeshMask& mask,
                                 const BlurKernel& kernel, Canvas& canvas) {
     if (meshes.empty()) return;
     const CanvasLevel& level = canvas.level(meshes.front().level);
@@ -121,8 +122,8 @@ void TracedCanvas::draw_blurred(std::span<const MeshPaint> meshes, const PieceMa
     // A box of its own, with room for the kernel on every side.
     target.stride = drawn.x1 - drawn.x0 + 2 * reach;
     for (std::size_t c = 0; c < 3; ++c) {
-        target.planes[c] =
-            scratch_[c].data() + (reach - drawn.y0) * target.stride + reach - drawn.x0;
+        target.planes[c] = scratch_[c].data() + (reach - drawn.y0) * target.stride + reach -
+                           drawn.x0;
     }
     target.x0 = drawn.x0;
     target.x1 = drawn.x1;
@@ -160,9 +161,10 @@ void TracedCanvas::draw_blurred(std::span<const MeshPaint> meshes, const PieceMa
                 const int begin = std::max(left, drawn.x0 - half);
                 const int end = std::min(right, drawn.x1 + half);
                 for (std::size_t c = 0; c < 3; ++c) {
-                    blur_row(target.planes[c] + (y + dy) * target.stride + begin - half,
-                             kernel.row(dy) + reach - half, 2 * half + 1, end - begin,
-                             level.planes[c] + y * level.stride + begin);
+                    blur_row(
+                        target.planes[c] + (y + dy) * target.stride + begin - half,
+                        kernel.row(dy) + reach - half, 2 * half + 1, end - begin,
+                        level.planes[c] + y * level.stride + begin);
                 }
             }
         }

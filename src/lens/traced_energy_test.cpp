@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <cstdio>
 #include <cstdlib>
-#include <numeric>
 
 #include "aureole/base/parallel.h"
 #include "aureole/color/spectrum.h"
@@ -21,7 +21,8 @@ double energy_by_rays(const Bench& bench, const Bounces& ghost, const sources::L
                       double wavelength_nm, double transmission) {
     const Tracer tracer(bench.lens, wavelength_nm);
     const auto lands = [&](double x, double y) {
-        const TracedRay ray = tracer.trace(ghost, ray_from_light(light.tan_x, light.tan_y, x, y));
+        const TracedRay ray =
+            tracer.trace(ghost, ray_from_light(light.tan_x, light.tan_y, x, y));
         if (!ray.passes()) return false;
         const double px = bench.film.px(ray.x_mm);
         const double py = bench.film.py(ray.y_mm);
@@ -49,7 +50,8 @@ double energy_by_rays(const Bench& bench, const Bounces& ghost, const sources::L
                 bottom = std::max(bottom, y + step_y);
                 if (side == 120) {
                     sum += step_x * step_y *
-                           tracer.throughput(ghost, ray_from_light(light.tan_x, light.tan_y, x, y));
+                           tracer.throughput(
+                               ghost, ray_from_light(light.tan_x, light.tan_y, x, y));
                 }
             }
         }
@@ -59,7 +61,8 @@ double energy_by_rays(const Bench& bench, const Bounces& ghost, const sources::L
         y0 = top;
         y1 = bottom;
     }
-    const double cosine = 1 / std::sqrt(1 + light.tan_x * light.tan_x + light.tan_y * light.tan_y);
+    const double cosine =
+        1 / std::sqrt(1 + light.tan_x * light.tan_x + light.tan_y * light.tan_y);
     const double pixel = bench.film.mm_per_px * bench.film.mm_per_px;
     return light.solid_angle_sr * cosine * sum /
            (transmission * bench.film.irradiance_per_radiance * pixel);
@@ -86,21 +89,20 @@ TEST_P(TracedEnergySlow, OfTheStrongestGhostsIsThatOfTheirRays) {
     double transmission = 1;
     const std::vector<double> index = bench.lens.indices(wavelength_nm);
     for (std::size_t k = 0; k < bench.lens.faces().size(); ++k) {
-        transmission *=
-            1 - reflectance(index[k], index[k + 1], bench.lens.faces()[k].coating, wavelength_nm, 1)
-                    .mean();
+        transmission *= 1 - reflectance(index[k], index[k + 1], bench.lens.faces()[k].coating,
+                                        wavelength_nm, 1)
+                                .mean();
     }
     std::vector<double> exact(order.size());
     parallel_for(order.size(), [&](std::size_t k, int) {
-        exact[k] = energy_by_rays(bench, bench.list[order[k]], light, wavelength_nm, transmission);
+        exact[k] =
+            energy_by_rays(bench, bench.list[order[k]], light, wavelength_nm, transmission);
     });
     for (std::size_t k = 0; k < order.size(); ++k) {
         const Bounces& ghost = bench.list[order[k]];
         EXPECT_NEAR(drawn[order[k]] / exact[k], 1, 0.01)
             << "surfaces " << ghost.far + 1 << ", " << ghost.near + 1 << ": " << drawn[order[k]];
-        if (getenv("V"))
-            printf("%d %d: %.5g  %.5f\n", ghost.far + 1, ghost.near + 1, exact[k],
-                   drawn[order[k]] / exact[k]);
+        if (getenv("V")) printf("%d %d: %.5g  %.5f\n", ghost.far+1, ghost.near+1, exact[k], drawn[order[k]]/exact[k]);
     }
 }
 

@@ -18,8 +18,8 @@ float TracedMask::outer_radius() const noexcept {
     return texture_.empty() ? static_cast<float>(iris_.outer_radius()) : std::sqrt(2.0F);
 }
 
-PieceMask TracedMask::piece_mask() const noexcept {
-    PieceMask mask;
+MeshMask TracedMask::mesh_mask() const noexcept {
+    MeshMask mask;
     mask.iris = field();
     mask.open = !texture_.empty() || iris_.is_image();
     if (mask.open || occluder_) {
@@ -48,8 +48,8 @@ float TracedMask::texture_at(float u, float v) const noexcept {
 }
 
 void TracedMask::transmit(const void* context, const float* u, const float* v,
-                          const float* iris_width, const float* entrance_x, const float* entrance_y,
-                          float entrance_width, int count, float* light) {
+                          const float* iris_width, const float* entrance_x,
+                          const float* entrance_y, float entrance_width, int count, float* light) {
     const auto& mask = *static_cast<const TracedMask*>(context);
     for (int k = 0; k < count; ++k) {
         if (light[k] <= 0) continue;

@@ -111,13 +111,15 @@ TracedMesh::TracedMesh(int side)
     : side_(side),
       sparse_side_(sparse_side(side)),
       memory_(bytes(side) / sizeof(float)),
-      state_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side)),
-      patch_state_(static_cast<std::size_t>(kPatchColumns) * kPatchRows),
+      states_(static_cast<std::size_t>(side * side + kMaxPatches * kPatchColumns * kPatchRows)),
       groups_(most_groups(side, side) + kMaxPatches * most_groups(kPatchColumns, kPatchRows)),
       patches_(kMaxPatches) {
     std::fill(memory_.data(), memory_.data() + memory_.size(), 0.0F);
     float* memory = memory_.data();
     allocate(grid_, side, side, memory);
+    std::uint8_t* states = states_.data();
+    grid_.state = states;
+    states += side * side;
     memory += kMeshFields * field_floats(side, side);
     sparse_ = memory;
     memory += field_floats(sparse_side_, sparse_side_);
@@ -125,6 +127,8 @@ TracedMesh::TracedMesh(int side)
     memory += field_floats(sparse_side_, 1);
     for (Patch& patch : patches_) {
         allocate(patch.mesh, kPatchColumns, kPatchRows, memory);
+        patch.mesh.state = states;
+        states += kPatchColumns * kPatchRows;
         memory += kMeshFields * field_floats(kPatchColumns, kPatchRows);
     }
 }
@@ -140,8 +144,8 @@ void TracedMesh::allocate(Mesh& mesh, int columns, int rows, float* memory) cons
     mesh.columns = columns;
     mesh.rows = rows;
     mesh.stride = ray_stride(columns);
-    float** const fields[kMeshFields] = {&mesh.x,      &mesh.y,        &mesh.u,
-                                         &mesh.v,      &mesh.clip,     &mesh.power,
+    float** const fields[kMeshFields] = {&mesh.x,     &mesh.y,      &mesh.u,
+                                         &mesh.v,     &mesh.clip,   &mesh.power,
                                          &mesh.smooth, &mesh.radiance, &mesh.share};
     for (float** field : fields) {
         *field = memory;
@@ -201,8 +205,7 @@ void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double s
         const SparsePlace across(j + row * step, kSparse, sparse_side_);
         for (int k = 0; k < sparse_side_; ++k) {
             float sum = 0;
-            for (int n = 0; n < 4; ++n)
-                sum += across.weight[n] * sparse_[across.node[n] * stride + k];
+            for (int n = 0; n < 4; ++n) sum += across.weight[n] * sparse_[across.node[n] * stride + k];
             sparse_row_[k] = scale * sum;
         }
         float* to = mesh.power + row * mesh.stride;
@@ -217,9 +220,9 @@ void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double s
 
 // Gives refined cells patches as long as there are any; the others are drawn as they are.
 void TracedMesh::refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
-                        int depth, std::uint8_t* state) noexcept {
+                        int depth) noexcept {
     for (int row = 1; row + 2 < mesh.rows; ++row) {
-        std::uint8_t* cell = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        std::uint8_t* cell = mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
         const float* clip = mesh.clip + row * mesh.stride;
         for (int column = 1; column + 2 < mesh.columns; ++column) {
             if (cell[column] != kCellRefined) continue;
@@ -294,40 +297,32 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     options.x1 = job.x1;
     options.y0 = job.y0;
     options.y1 = job.y1;
-    const auto finish = [&](const Mesh& mesh, double i, double j, double step, int depth,
-                            std::uint8_t* state) {
-        mesh_classifier().classify(mesh, options, state);
-        refine(job, mesh, i, j, step, depth, state);
+    const auto finish = [&](const Mesh& mesh, double i, double j, double step, int depth) {
+        mesh_classifier().classify(mesh, options);
+        refine(job, mesh, i, j, step, depth);
         const int first = group_count_;
-        const int count = mesh_classifier().divide(mesh, state, groups_.data() + first);
+        const int count = mesh_classifier().divide(mesh, groups_.data() + first);
         group_count_ += count;
         add_bounds(std::span(groups_).subspan(static_cast<std::size_t>(first),
                                               static_cast<std::size_t>(count)));
         return count;
     };
-    grid_groups_ = finish(grid_, 0, 0, 1, 0, state_.data());
+    grid_groups_ = finish(grid_, 0, 0, 1, 0);
     // The list grows while it is worked through.
     for (int k = 0; k < patch_count_; ++k) {
         Patch& patch = patches_[static_cast<std::size_t>(k)];
         patch.first_group = group_count_;
         patch.group_count =
-            finish(patch.mesh, patch.i, patch.j, patch.step, patch.depth, patch_state_.data());
+            finish(patch.mesh, patch.i, patch.j, patch.step, patch.depth);
     }
     if (getenv("DBG")) {
-        double pieces = 0, most = 0;
-        for (int g = 0; g < group_count_; ++g) {
-            double p = 16.0 * groups_[g].pieces_i * groups_[g].pieces_j;
-            pieces += p;
-            if (p > most) most = p;
-        }
-        printf("mesh groups %d patches %d pieces %g most %g bounds %d %d %d %d box %g %g %g %g\n",
-               grid_groups_, patch_count_, pieces, most, bounds_.x0, bounds_.x1, bounds_.y0,
-               bounds_.y1, job.box.x0, job.box.x1, job.box.y0, job.box.y1);
+        double pieces = 0, most = 0; for (int g = 0; g < group_count_; ++g) { double p = 16.0*groups_[g].pieces_i*groups_[g].pieces_j; pieces += p; if (p>most) most=p; }
+        printf("mesh groups %d patches %d pieces %g most %g bounds %d %d %d %d box %g %g %g %g\n", grid_groups_, patch_count_, pieces, most, bounds_.x0, bounds_.x1, bounds_.y0, bounds_.y1, job.box.x0, job.box.x1, job.box.y0, job.box.y1);
     }
 }
 
 void TracedMesh::draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups,
-                             const PieceMask& mask, const MeshTile& tile) const noexcept {
+                             const MeshMask& mask, const MeshTile& tile) const noexcept {
     const auto x0 = static_cast<float>(tile.x0);
     const auto x1 = static_cast<float>(tile.x1);
     const auto y0 = static_cast<float>(tile.y0);
@@ -337,12 +332,12 @@ void TracedMesh::draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups
         if (group.pieces_i > 0) {
             draw_pieces(mesh, group, mask, tile);
         } else {
-            draw_facets(mesh, group, tile);
+            draw_facets(mesh, group, mask, tile);
         }
     }
 }
 
-void TracedMesh::draw(const PieceMask& mask, const MeshTile& tile) const noexcept {
+void TracedMesh::draw(const MeshMask& mask, const MeshTile& tile) const noexcept {
     const std::span groups(groups_);
     draw_groups(grid_, groups.first(static_cast<std::size_t>(grid_groups_)), mask, tile);
     for (int k = 0; k < patch_count_; ++k) {

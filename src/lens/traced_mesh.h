@@ -42,7 +42,7 @@ class TracedMesh {
     void build(const MeshJob& job) noexcept;
 
     // Draws all that falls into a tile.
-    void draw(const PieceMask& mask, const MeshTile& tile) const noexcept;
+    void draw(const MeshMask& mask, const MeshTile& tile) const noexcept;
     // Pixels of the level that draw() may touch: [x0, x1) x [y0, y1); empty if y0 >= y1.
     struct Bounds {
         int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
@@ -81,10 +81,10 @@ class TracedMesh {
     void trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept;
     void interpolate_throughput(Mesh& mesh, double i, double j, double step,
                                 float scale) const noexcept;
-    void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step, int depth,
-                std::uint8_t* state) noexcept;
+    void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
+                int depth) noexcept;
     void add_bounds(std::span<const MeshGroup> groups) noexcept;
-    void draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups, const PieceMask& mask,
+    void draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups, const MeshMask& mask,
                      const MeshTile& tile) const noexcept;
 
     int side_;
@@ -94,8 +94,7 @@ class TracedMesh {
     RayBundle bundle_;
     float* sparse_ = nullptr;
     float* sparse_row_ = nullptr;  // between rows of it
-    std::vector<std::uint8_t> state_;
-    std::vector<std::uint8_t> patch_state_;
+    std::vector<std::uint8_t> states_;
     std::vector<MeshGroup> groups_;
     int grid_groups_ = 0;
     std::vector<Patch> patches_;
