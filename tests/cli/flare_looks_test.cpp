@@ -30,6 +30,15 @@ TEST_F(FlareLooks, BlogIsMatrixAndSameSide) {
               report("flare in.exr -o out.exr" + kFast)["ghosts"]["count"].get<int>());
 }
 
+// The look has no absolute scale: a light of the picture may well make ghosts brighter than all of
+// it.
+TEST_F(FlareLooks, GhostsBrighterThanThePictureAreTold) {
+    const Outcome blog = run("flare in.exr -o out.exr --preset blog" + kLens);
+    EXPECT_TRUE(names_all(blog.err, {"note: ghosts hold", "--tint"}));
+    const Outcome physical = run("flare in.exr -o out.exr" + kFast);
+    EXPECT_EQ(physical.err.find("ghosts hold"), std::string::npos);
+}
+
 TEST_F(FlareLooks, TintScales) {
     const double all = ghosts(kFast);
     EXPECT_NEAR(ghosts(" --tint 0.5" + kFast) / all, 0.5, 1e-4);
