@@ -49,6 +49,7 @@ GhostCompare::Work::Work(const TracedBands& bands)
       coverage(kBins * kBins),
       difference(3 * kBins * kBins) {
     ghost.weights.resize(kBands);
+    ghost.strata_weights.resize(kBands * TracedBands::kStrata);
 }
 
 GhostCompare::GhostCompare(const Lens& lens, const Film& film, std::span<const Bounces> ghosts)
@@ -94,7 +95,8 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
     film.axis_x = (film_.axis_x - bins.x0) / bins.size;
     film.axis_y = (film_.axis_y - bins.y0) / bins.size;
     film.mm_per_px = film_.mm_per_px * bins.size;
-    MeshJob job{.way = {},
+    MeshJob job{.side = kRays,
+                .way = {},
                 .sensor_distance_mm = bands_.sensor_distance_mm(),
                 .direction = direction,
                 .box = found.entrance,

@@ -59,7 +59,10 @@ int compare_sums(MatrixScene& scene, const sources::Light& light, double toleran
             if (level > 0 && ghost.open_radius_px < 8.0F * static_cast<float>(1 << level)) break;
             if (!inside(ghost, scene.view, level)) continue;
             const double sum = sum_of(scene.draw({{static_cast<int>(g), level}}));
-            EXPECT_NEAR(sum / static_cast<double>(ghost.energy), 1, tolerance)
+            // What clips leave of blades is measured by 64 rays.
+            const bool by_rays = scene.iris.shape().blades > 0 && ghost.clip_count > 0;
+            EXPECT_NEAR(sum / static_cast<double>(ghost.energy), 1,
+                        by_rays ? std::max(tolerance, 8e-3) : tolerance)
                 << "ghost " << g << ", level " << level << ", radius " << ghost.radius_px
                 << ", open " << ghost.open_radius_px << ", clips " << ghost.clip_count;
             ++compared;

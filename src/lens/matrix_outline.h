@@ -19,7 +19,7 @@ namespace aureole::lens {
 
 // Positions are those of pixel centres: whole numbers.
 struct OutlineEdge {
-    // Straight: distance = a x + b y + c.
+    // Straight: distance = a x + b y + c; d = 1 / a, or 0 if the edge runs along the rows.
     // Round: q = |((x - a) c, (y - b) d)|, distance = (q - 1) over the length of q's gradient.
     float a = 0, b = 0, c = 0, d = 0;
 };

@@ -110,6 +110,35 @@ TEST(OpenArea, EqualsCountingForClippedIrises) {
     }
 }
 
+TEST(IrisSectors, MeasureAsOpenAreaDoes) {
+    Random random(8);
+    for (const IrisShape& shape :
+         {IrisShape{.blades = 5, .rotation_deg = 9}, IrisShape{.blades = 8},
+          IrisShape{.blades = 9, .rotation_deg = 2, .curvature = 0.6}}) {
+        const Iris iris(shape);
+        const Pupil pupil = {&iris, nullptr, nullptr};
+        const IrisSectors sectors(iris);
+        EXPECT_NEAR(sectors.open_area({}).area, kPi, 1e-6);
+        for (int run = 0; run < 200; ++run) {
+            MatrixGhost::Clip clips[2];
+            for (MatrixGhost::Clip& clip : clips) {
+                clip.u0 = static_cast<float>(random.uniform(-1, 1));
+                clip.v0 = static_cast<float>(random.uniform(-1, 1));
+                clip.ru = clip.rv = static_cast<float>(random.uniform(0.7, 2));
+            }
+            // Curved blades of another crossing count as round.
+            clips[1].iris = shape.curvature == 0;
+            clips[1].ru = clips[1].rv = clips[1].iris ? -clips[1].ru : clips[1].ru;
+            const OpenArea expected = open_area(pupil, {}, clips);
+            const OpenArea open = sectors.open_area(clips);
+            if (expected.area < 0.3) continue;
+            EXPECT_NEAR(open.area, expected.area, 0.005 * kPi) << run;
+            EXPECT_NEAR(open.middle_u, expected.middle_u, 0.02);
+            EXPECT_NEAR(open.middle_v, expected.middle_v, 0.02);
+        }
+    }
+}
+
 // Points of the drawn iris, as rays of linear optics, met by every aperture on their way: where all
 // let them pass, coverage must be 1, and 0 where one does not. Oracle: the matrices themselves,
 // crossing by crossing; placement sees only what is left after much simplification.

@@ -30,12 +30,13 @@ struct GhostNow {
     int level = 0;
     BlurMoments blur;  // pixels of the level
     bool blurred = false;
+    bool in_strata = false;  // bands are cut into strata
 };
 
 // One mesh of a batch.
 struct Item {
     const GhostDraw* draw = nullptr;
-    int band = 0;
+    int band = 0;  // or stratum
 };
 
 }  // namespace
@@ -44,6 +45,7 @@ struct TracedGhosts::Impl {
     Impl(const Lens& a_lens, const Iris& an_iris, const Film& a_film, const FlareOptions& options,
          std::vector<Bounces> list, const Occluder* occluder)
         : film(a_film),
+          side(options.rays_per_side),
           ghosts(std::move(list)),
           bands(a_lens, ghosts, options.wavelengths),
           mask(an_iris, occluder, options.ghost_texture),
@@ -53,7 +55,9 @@ struct TracedGhosts::Impl {
           now(ghosts.size()) {
         for (int k = 0; k < max_workers(); ++k) probes.emplace_back(bands);
         for (GhostNow& ghost : now) {
-            ghost.light.weights.resize(static_cast<std::size_t>(options.wavelengths));
+            const auto count = static_cast<std::size_t>(options.wavelengths);
+            ghost.light.weights.resize(count);
+            ghost.light.strata_weights.resize(count * TracedBands::kStrata);
         }
         const std::size_t at_once = meshes_at_once(options.rays_per_side);
         for (std::size_t k = 0; k < at_once; ++k) {
@@ -67,6 +71,7 @@ struct TracedGhosts::Impl {
 
     void prepare(const sources::Light& light, const GhostDraw& draw, const Canvas& canvas,
                  int worker);
+    void prepare_blur(const sources::Light& light, int index, const Canvas& canvas);
     MeshJob job_for(const sources::Light& light, const Item& item, const Canvas& canvas,
                     std::vector<RayStep>& scratch) const;
     MeshPaint paint_for(const sources::Light& light, std::size_t item) const;
@@ -76,6 +81,7 @@ struct TracedGhosts::Impl {
     }
 
     Film film;
+    int side;
     std::vector<Bounces> ghosts;
     TracedBands bands;
     TracedMask mask;
@@ -100,11 +106,22 @@ void TracedGhosts::Impl::prepare(const sources::Light& light, const GhostDraw& d
     GhostNow& ghost = of(draw);
     bands.prepare(draw.ghost, RayDirection(light), sensor, mask,
                   probes[static_cast<std::size_t>(worker)], ghost.light);
-    const PlaneBox& entrance = ghost.light.found.entrance;
     ghost.level = std::clamp(draw.level, 0, canvas.levels() - 1);
     ghost.blurred = false;
-    if (entrance.empty() || (light.moment_xx <= 0 && light.moment_yy <= 0)) return;
-    ghost.blur = blur_of(tracer, ghosts[static_cast<std::size_t>(draw.ghost)], light,
+    if (ghost.light.found.entrance.empty()) return;
+    if (light.moment_xx > 0 || light.moment_yy > 0) prepare_blur(light, draw.ghost, canvas);
+    // Below that, a blur or coarse pixels hide the bands.
+    constexpr double kOutlinesPx = 1.5;
+    const double apart_px = ghost.light.dispersion_mm / (film.mm_per_px * (1 << ghost.level));
+    const double hidden_px = ghost.blurred ? BlurKernel::reach(ghost.blur) : 0;
+    ghost.in_strata = apart_px > kOutlinesPx + hidden_px;
+}
+
+void TracedGhosts::Impl::prepare_blur(const sources::Light& light, int index,
+                                      const Canvas& canvas) {
+    GhostNow& ghost = now[static_cast<std::size_t>(index)];
+    const PlaneBox& entrance = ghost.light.found.entrance;
+    ghost.blur = blur_of(tracer, ghosts[static_cast<std::size_t>(index)], light,
                          0.5 * (entrance.x0 + entrance.x1), 0.5 * (entrance.y0 + entrance.y1));
     const auto scale = [&](double by) {
         ghost.blur.xx *= by;
@@ -133,7 +150,13 @@ MeshJob TracedGhosts::Impl::job_for(const sources::Light& light, const Item& ite
                                     std::vector<RayStep>& scratch) const {
     const GhostNow& ghost = of(*item.draw);
     const CanvasLevel& level = canvas.level(ghost.level);
-    MeshJob job{.way = bands.way(item.draw->ghost, item.band, scratch),
+    const int index = item.draw->ghost;
+    // As many rays in all strata as otherwise in the band.
+    constexpr double kShare = 0.577;  // 1 / sqrt(kStrata)
+    static_assert(TracedBands::kStrata == 3);
+    MeshJob job{.side = ghost.in_strata ? std::max(8, static_cast<int>(side * kShare)) : side,
+                .way = ghost.in_strata ? bands.way_of_stratum(index, item.band, scratch)
+                                       : bands.way(index, item.band, scratch),
                 .sensor_distance_mm = bands.sensor_distance_mm(),
                 .direction = RayDirection(light),
                 .box = ghost.light.found.entrance,
@@ -161,9 +184,10 @@ MeshPaint TracedGhosts::Impl::paint_for(const sources::Light& light, std::size_t
     MeshPaint paint;
     paint.mesh = &meshes[item];
     paint.level = ghost.level;
+    const auto& weights = ghost.in_strata ? ghost.light.strata_weights : ghost.light.weights;
+    const auto& weight = weights[static_cast<std::size_t>(items[item].band)];
     for (std::size_t c = 0; c < 3; ++c) {
-        paint.weight[c] = ghost.light.weights[static_cast<std::size_t>(items[item].band)][c] *
-                          light.radiance[c] * draw.gain[c];
+        paint.weight[c] = weight[c] * light.radiance[c] * draw.gain[c];
     }
     return paint;
 }
@@ -186,14 +210,20 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
     for (TracedBands::Probe& probe : m.probes) m.rays += probe.take_rays();
 
     // In batches: trace, then draw.
-    const auto bands = static_cast<std::size_t>(m.bands.count());
-    const std::size_t total = ghosts.size() * bands;
-    for (std::size_t next = 0; next < total;) {
+    std::size_t next = 0;
+    int band = 0;
+    while (next < ghosts.size()) {
         m.items.clear();
-        for (; next < total && m.items.size() < m.meshes.size(); ++next) {
-            const GhostDraw& draw = ghosts[next / bands];
-            if (m.of(draw).light.found.entrance.empty()) continue;
-            m.items.push_back({&draw, static_cast<int>(next % bands)});
+        while (next < ghosts.size() && m.items.size() < m.meshes.size()) {
+            const GhostNow& ghost = m.of(ghosts[next]);
+            const int bands = ghost.in_strata ? m.bands.count() * TracedBands::kStrata
+                                              : m.bands.count();
+            if (ghost.light.found.entrance.empty() || band == bands) {
+                ++next;
+                band = 0;
+                continue;
+            }
+            m.items.push_back({&ghosts[next], band++});
         }
         parallel_for(m.items.size(), [&](std::size_t k, int) {
             m.meshes[k].build(m.job_for(light, m.items[k], canvas, m.steps[k]));

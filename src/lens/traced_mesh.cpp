@@ -98,6 +98,8 @@ struct SparsePlace {
 
 }  // namespace
 
+int TracedMesh::sparse_side(int side) { return (side - 1 + kSparse - 1) / kSparse + 1; }
+
 PlaneBox picture_on_sensor(const Film& film, double margin_px) {
     const auto x_mm = [&](double px) { return (film.axis_x - px) * film.mm_per_px; };
     const auto y_mm = [&](double px) { return (px - film.axis_y) * film.mm_per_px; };
@@ -107,7 +109,7 @@ PlaneBox picture_on_sensor(const Film& film, double margin_px) {
 
 TracedMesh::TracedMesh(int side)
     : side_(side),
-      sparse_side_((side - 1 + kSparse - 1) / kSparse + 1),
+      sparse_side_(sparse_side(side)),
       memory_(bytes(side) / sizeof(float)),
       state_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side)),
       patch_state_(static_cast<std::size_t>(kPatchColumns) * kPatchRows),
@@ -128,7 +130,7 @@ TracedMesh::TracedMesh(int side)
 }
 
 std::size_t TracedMesh::bytes(int side) {
-    const int sparse = (side - 1 + kSparse - 1) / kSparse + 1;
+    const int sparse = sparse_side(side);
     return sizeof(float) * (kMeshFields * field_floats(side, side) + field_floats(sparse, sparse) +
                             field_floats(sparse, 1) +
                             kMaxPatches * kMeshFields * field_floats(kPatchColumns, kPatchRows));
@@ -264,6 +266,10 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     rays_ = 0;
     patch_count_ = group_count_ = grid_groups_ = 0;
     bounds_ = {};
+    side_ = job.side;
+    sparse_side_ = sparse_side(side_);
+    grid_.columns = grid_.rows = side_;
+    grid_.stride = ray_stride(side_);
     // One cell on each side is the rim, which is not drawn.
     const double step_x = (job.box.x1 - job.box.x0) / (side_ - 3);
     const double step_y = (job.box.y1 - job.box.y0) / (side_ - 3);

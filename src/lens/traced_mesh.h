@@ -15,6 +15,7 @@ namespace aureole::lens {
 
 // What to trace, and onto what.
 struct MeshJob {
+    int side = 0;  // rays of the grid, at most what the mesh was made for; at least 8
     std::span<const RayStep> way;
     float sensor_distance_mm = 0;
     RayDirection direction;
@@ -35,7 +36,7 @@ PlaneBox picture_on_sensor(const Film& film, double margin_px);
 
 class TracedMesh {
   public:
-    // For grids of `side` x `side` rays.
+    // For grids of up to `side` x `side` rays.
     explicit TracedMesh(int side);
 
     void build(const MeshJob& job) noexcept;
@@ -74,6 +75,7 @@ class TracedMesh {
         double i = 0, j = 0, step = 1;
     };
 
+    static int sparse_side(int side);
     void allocate(Mesh& mesh, int columns, int rows, float* memory) const;
     void trace(const MeshJob& job, Mesh& mesh, double i, double j, double step) noexcept;
     void trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept;
