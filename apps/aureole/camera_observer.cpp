@@ -53,9 +53,9 @@ View CameraObserver::view_of(const io::Picture& picture) {
     if (std::abs(known->deg / lens_field_deg_ - 1) > kSameField) {
         const double pictured_mm = camera_.lens.efl_mm() / view.focal_length_px() * window.width;
         session_.note(fmt::format(
-            "{} = {:.4g} deg wins over the lens's {:.4g} deg ({}): the "
-            "picture shows {:.4g} mm of its image, {:.3g} times the sensor",
-            known->source, known->deg, lens_field_deg_, lens, pictured_mm, pictured_mm / used_mm));
+            "{} = {:.4g} deg wins over the lens's {:.4g} deg ({}): as on a sensor {:.4g} mm wide, "
+            "crop factor {:.3g}",
+            known->source, known->deg, lens_field_deg_, lens, pictured_mm, used_mm / pictured_mm));
     }
     return view;
 }

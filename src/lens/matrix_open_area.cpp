@@ -61,8 +61,7 @@ CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scra
                     needed = false;
                     break;
                 }
-            } else if (size == 1 ||
-                       crossing(last, disc) > crossing(scratch[size - 2], last)) {
+            } else if (size == 1 || crossing(last, disc) > crossing(scratch[size - 2], last)) {
                 break;
             }
             --size;
@@ -90,8 +89,8 @@ CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scra
 
 namespace {
 
-constexpr int kLines = 64;     // where only edges matter
-constexpr int kSamples = 20;   // per side, where pictures do
+constexpr int kLines = 48;    // where only edges matter
+constexpr int kSamples = 20;  // per side, where pictures do
 
 struct Interval {
     double low = -1e300;
@@ -148,77 +147,130 @@ void cut_by_iris(Interval& chord, const Iris& iris, double u0, double v0, double
     chord.cut(std::min(a, b), std::max(a, b));
 }
 
-}  // namespace
+// Everything that clips, as chords.
+struct Region {
+    const Pupil& pupil;
+    std::span<const MatrixGhost::Clip> clips;
+    bool smooth;   // corners of blades, which are sampled
+    bool sampled;  // these or pictures
+    double reach;  // of the drawn iris
 
-OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
-                   std::span<const MatrixGhost::Clip> clips) noexcept {
-    const Iris& iris = *pupil.iris;
-    const bool smooth = is_sampled(iris) && !iris.is_image();
-    const double reach = static_cast<double>(pupil.outer_radius(0)) + (smooth ? 0.1 : 0);
-    Interval range = {-reach, reach};
-    for (const MatrixGhost::Clip& clip : clips) {
-        const double outer = static_cast<double>(std::abs(clip.rv)) *
-                             (clip.iris ? iris.outer_radius() + (smooth ? 0.1 : 0) : 1.0);
-        range.cut(static_cast<double>(clip.v0) - outer, static_cast<double>(clip.v0) + outer);
-    }
-    OpenArea open;
-    if (!(range.low < range.high)) return open;
-    const bool sampled = pupil.has_pictures() || smooth;
-    const int lines = sampled ? kSamples : kLines;
-    const double half_height = 0.5 * (range.high - range.low);
-    // Lines at the midpoints of equal steps of t, v = sin t: chords that shrink to 0 at the ends as
-    // square roots do are then smooth in t.
-    for (int i = 0; i < lines; ++i) {
-        const double t = kPi * ((i + 0.5) / lines - 0.5);
-        const double v = range.low + half_height * (1 + std::sin(t));
-        const double weight = half_height * std::cos(t) * kPi / lines;
+    Region(const Pupil& its_pupil, std::span<const MatrixGhost::Clip> its_clips)
+        : pupil(its_pupil),
+          clips(its_clips),
+          smooth(is_sampled(*pupil.iris) && !pupil.iris->is_image()),
+          sampled(smooth || pupil.has_pictures()),
+          reach(static_cast<double>(pupil.outer_radius(0)) + (smooth ? 0.1 : 0)) {}
+
+    Interval chord(double v) const {
         Interval chord;
         if (pupil.texture != nullptr) {
             chord.cut(-reach, reach);
         } else {
-            cut_by_iris(chord, iris, 0, 0, 1, 1, v);
+            cut_by_iris(chord, *pupil.iris, 0, 0, 1, 1, v);
         }
         for (const MatrixGhost::Clip& clip : clips) {
             const double u0 = static_cast<double>(clip.u0);
             const double v0 = static_cast<double>(clip.v0);
             const double ru = static_cast<double>(clip.ru);
             const double rv = static_cast<double>(clip.rv);
-            clip.iris ? cut_by_iris(chord, iris, u0, v0, ru, rv, v)
+            clip.iris ? cut_by_iris(chord, *pupil.iris, u0, v0, ru, rv, v)
                       : cut_by_ellipse(chord, u0, v0, ru, rv, v);
         }
+        return chord;
+    }
+
+    // All v of chords that are not empty: one interval, since everything that clips is convex.
+    Interval rows() const {
+        Interval range = {-reach, reach};
+        for (const MatrixGhost::Clip& clip : clips) {
+            const double radius = clip.iris ? pupil.iris->outer_radius() + (smooth ? 0.1 : 0) : 1.0;
+            const double half = static_cast<double>(std::abs(clip.rv)) * radius;
+            range.cut(static_cast<double>(clip.v0) - half, static_cast<double>(clip.v0) + half);
+        }
+        const auto open = [&](double v) {
+            const Interval at = chord(v);
+            return at.low < at.high;
+        };
+        // The widest of some chords is inside, if any is; the ends are found from there.
+        double inside = 0;
+        double widest = 0;
+        constexpr int kLooks = 16;
+        for (int i = 0; i < kLooks; ++i) {
+            const double v = range.low + (i + 0.5) / kLooks * (range.high - range.low);
+            const Interval at = chord(v);
+            if (at.high - at.low > widest) {
+                widest = at.high - at.low;
+                inside = v;
+            }
+        }
+        if (!(widest > 0) || !(range.low < range.high)) return {0, 0};
+        const auto end_from = [&](double good, double bad) {
+            if (open(bad)) return bad;
+            for (int i = 0; i < 24; ++i) {
+                const double middle = 0.5 * (good + bad);
+                (open(middle) ? good : bad) = middle;
+            }
+            return good;
+        };
+        return {end_from(inside, range.low), end_from(inside, range.high)};
+    }
+
+    // Transmission at a point between two samples this far apart.
+    float share(const Entrance& entrance, float u, float v, float footprint) const {
+        const Iris& iris = *pupil.iris;
+        float result = pupil.pictures(entrance, u, v, footprint);
+        const auto fade = [&](float own_u, float own_v, float scale) {
+            const float outside = (iris.distance(own_u, own_v) - 1) * scale / footprint;
+            return std::clamp(0.5F - outside, 0.0F, 1.0F);
+        };
+        if (pupil.texture == nullptr && smooth) result *= fade(u, v, 1);
+        for (const MatrixGhost::Clip& clip : clips) {
+            if (!clip.iris) continue;
+            const float own_u = (u - clip.u0) / clip.ru;
+            const float own_v = (v - clip.v0) / clip.rv;
+            const float scale = std::abs(clip.ru);
+            result *= smooth ? fade(own_u, own_v, scale)
+                             : pupil.iris_picture(own_u, own_v, footprint / scale);
+        }
+        return result;
+    }
+};
+
+}  // namespace
+
+OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
+                   std::span<const MatrixGhost::Clip> clips) noexcept {
+    const Region region(pupil, clips);
+    const Interval rows = region.rows();
+    OpenArea open;
+    if (!(rows.low < rows.high)) return open;
+    const auto add = [&](double area, double u, double v) {
+        open.area += area;
+        open.middle_u += area * u;
+        open.middle_v += area * v;
+    };
+    const int lines = region.sampled ? kSamples : kLines;
+    const double half_height = 0.5 * (rows.high - rows.low);
+    // Lines at the midpoints of equal steps of t, v = sin t: chords that shrink to 0 at the ends as
+    // square roots do are then smooth in t. The weights are those that measure a rectangle rightly.
+    for (int i = 0; i < lines; ++i) {
+        const double t = kPi * ((i + 0.5) / lines - 0.5);
+        const double v = rows.low + half_height * (1 + std::sin(t));
+        const double weight = 2 * half_height * std::cos(t) * std::sin(0.5 * kPi / lines);
+        const Interval chord = region.chord(v);
         const double length = chord.high - chord.low;
         if (!(length > 0)) continue;
-        if (!sampled) {
-            open.area += weight * length;
-            open.middle_u += weight * length * 0.5 * (chord.low + chord.high);
-            open.middle_v += weight * length * v;
+        if (!region.sampled) {
+            add(weight * length, 0.5 * (chord.low + chord.high), v);
             continue;
         }
+        const double step = length / kSamples;
         for (int k = 0; k < kSamples; ++k) {
-            const double u = chord.low + (k + 0.5) / kSamples * length;
-            const auto fu = static_cast<float>(u);
-            const auto fv = static_cast<float>(v);
-            const auto footprint = static_cast<float>(length / kSamples);
-            float share = pupil.pictures(entrance, fu, fv, footprint);
-            const auto through_iris = [&](float iu, float iv, float scale) {
-                share *= pupil.iris_picture(iu, iv, footprint / scale);
-                if (!smooth) return;
-                const float outside = (iris.distance(iu, iv) - 1) * scale / footprint;
-                share *= std::clamp(0.5F - outside, 0.0F, 1.0F);
-            };
-            if (pupil.texture == nullptr && smooth) {
-                const float outside = (iris.distance(fu, fv) - 1) / footprint;
-                share *= std::clamp(0.5F - outside, 0.0F, 1.0F);
-            }
-            for (const MatrixGhost::Clip& clip : clips) {
-                if (!clip.iris) continue;
-                through_iris((fu - clip.u0) / clip.ru, (fv - clip.v0) / clip.rv,
-                             std::abs(clip.ru));
-            }
-            const double part = weight * length / kSamples * static_cast<double>(share);
-            open.area += part;
-            open.middle_u += part * u;
-            open.middle_v += part * v;
+            const double u = chord.low + (k + 0.5) * step;
+            const float share = region.share(entrance, static_cast<float>(u), static_cast<float>(v),
+                                             static_cast<float>(step));
+            add(weight * step * static_cast<double>(share), u, v);
         }
     }
     if (open.area > 0) {

@@ -21,7 +21,7 @@ struct CommonArea {
     double area = 0;    // 0: nothing is left
     double middle = 0;  // centroid, along the line
     double low = 0, high = 0;
-    int edges = 0;  // how many discs bound it; at most kMaxEdges are told
+    int edges = 0;             // how many discs bound it; at most kMaxEdges are told
     int edge[kMaxEdges] = {};  // LineDisc::clip of those
 };
 

@@ -48,10 +48,11 @@ class OutlineBuilder {
                 const double gradient = std::hypot(nu * frame.scale_x, nv * frame.scale_y);
                 const double a = nu * frame.scale_x / gradient;
                 const double b_y = nv * frame.scale_y / gradient;
+                const double per_a = std::abs(a) < 1e-6 ? 0 : 1 / a;
                 add_edge({static_cast<float>(a), static_cast<float>(b_y),
                           static_cast<float>(-iris.apothem() / gradient - a * frame.center_x -
                                              b_y * frame.center_y),
-                          0});
+                          static_cast<float>(per_a)});
             } else {
                 add_edge({static_cast<float>(frame.center_x - back * nu / frame.scale_x),
                           static_cast<float>(frame.center_y - back * nv / frame.scale_y),
@@ -95,10 +96,10 @@ void set_rows(MatrixDrawing& drawing, double low, double high) {
 void make_spot(MatrixDrawing& drawing, const MatrixGhost& ghost, double scale) {
     const double own = static_cast<double>(ghost.open_radius_px * ghost.open_radius_px) / 4;
     const double to_level = 1 / (scale * scale);
-    const double xx = std::max(
-        (ghost.spot ? static_cast<double>(ghost.spot_xx) : own) * to_level, kLeastSpotMoment);
-    const double yy = std::max(
-        (ghost.spot ? static_cast<double>(ghost.spot_yy) : own) * to_level, kLeastSpotMoment);
+    const double xx = std::max((ghost.spot ? static_cast<double>(ghost.spot_xx) : own) * to_level,
+                               kLeastSpotMoment);
+    const double yy = std::max((ghost.spot ? static_cast<double>(ghost.spot_yy) : own) * to_level,
+                               kLeastSpotMoment);
     const double limit = 0.98 * std::sqrt(xx * yy);
     const double xy =
         ghost.spot ? std::clamp(static_cast<double>(ghost.spot_xy) * to_level, -limit, limit) : 0;
@@ -208,20 +209,25 @@ struct Chord {
     }
 };
 
-// Where a straight edge's distance is at most `distance`.
-void cut_straight(Chord& chord, const OutlineEdge& edge, float y, float distance) {
-    const float room = distance - edge.c - edge.b * y;
-    if (std::abs(edge.a) < 1e-6F) {
-        if (room < 0) chord.clear();
-    } else if (edge.a > 0) {
-        chord.high = std::min(chord.high, room / edge.a);
+// Where a straight edge's distance is at most `outside`, and at most `inside`.
+void cut_straight(Chord& any, Chord& whole, const OutlineEdge& edge, float y, float outside,
+                  float inside) {
+    const float room = outside - edge.c - edge.b * y;
+    const float margin = outside - inside;
+    if (edge.d == 0) {
+        if (room < 0) any.clear();
+        if (room < margin) whole.clear();
+    } else if (edge.d > 0) {
+        any.high = std::min(any.high, room * edge.d);
+        whole.high = std::min(whole.high, (room - margin) * edge.d);
     } else {
-        chord.low = std::max(chord.low, room / edge.a);
+        any.low = std::max(any.low, room * edge.d);
+        whole.low = std::max(whole.low, (room - margin) * edge.d);
     }
 }
 
-// The same for a round edge; of a stretched one, inside of it or outside (`distance` below or above
-// 0) by more than asked, since the gradient is taken at its largest.
+// Where a round edge's distance is at most this; of a stretched one, inside of it or outside
+// (`distance` below or above 0) by more than asked, since the gradient is taken at its largest.
 void cut_round(Chord& chord, const OutlineEdge& edge, float y, float distance) {
     const float q = 1 + distance * std::max(std::abs(edge.c), std::abs(edge.d));
     const float across = (y - edge.b) * edge.d;
@@ -258,8 +264,7 @@ RowChords row_chords(const MatrixDrawing& drawing, int y, int begin, int end) no
         for (int e = part.first; e < part.first + part.count; ++e) {
             const OutlineEdge& edge = drawing.edges[e];
             if (part.straight) {
-                cut_straight(any, edge, row, outside);
-                cut_straight(whole, edge, row, inside);
+                cut_straight(any, whole, edge, row, outside, inside);
             } else {
                 cut_round(any, edge, row, outside);
                 cut_round(whole, edge, row, inside);

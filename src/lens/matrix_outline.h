@@ -3,8 +3,9 @@
 // A part is an aperture: the iris at one crossing, or a housing. Its signed distance from the edge,
 // in pixels and positive outside, is the maximum (the smooth one of the two largest) over its
 // edges, and its coverage falls from 1 to 0 over [-half_width, half_width] of that: half a pixel to
-// either side antialiases, more where a light of finite size blurs. The ghost is the product of its
-// parts, which is exact where two straight edges cross.
+// either side antialiases, more where a light of finite size blurs. The ghost is the least of its
+// parts: where two edges run beside each other that is right, and where they cross too much by a
+// twelfth of a pixel or less.
 #pragma once
 
 #include <cmath>
@@ -18,7 +19,7 @@ namespace aureole::lens {
 
 // Positions are those of pixel centres: whole numbers.
 struct OutlineEdge {
-    // Straight: distance = a x + b y + c.
+    // Straight: distance = a x + b y + c; d = 1 / a, or 0 if the edge runs along the rows.
     // Round: q = |((x - a) c, (y - b) d)|, distance = (q - 1) over the length of q's gradient.
     float a = 0, b = 0, c = 0, d = 0;
 };

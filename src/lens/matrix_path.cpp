@@ -60,8 +60,8 @@ Meridian meridian(const Lens& lens, const GhostMatrices& ghost, const MatrixOf& 
         if (k == reference) continue;
         const Face& face = faces[static_cast<std::size_t>(ghost.crossings[k].face)];
         Matrix m = matrix_of(ghost.crossings[k].matrix);
-        m.a = away_from_zero(m.a, face.semi_aperture_mm * std::abs(stop.a) /
-                                      (kWidestHousing * stop_mm));
+        m.a = away_from_zero(m.a,
+                             face.semi_aperture_mm * std::abs(stop.a) / (kWidestHousing * stop_mm));
         result.clips.push_back({(stop.b - stop.a * m.b / m.a) / stop_mm,
                                 face.semi_aperture_mm * stop.a / (m.a * stop_mm),
                                 sensor.b - sensor.a * m.b / m.a});
@@ -106,9 +106,8 @@ void simplify(MatrixPath& path, const Iris& iris) {
         }
         if (needed) kept.push_back(clip);
     }
-    std::stable_sort(kept.begin(), kept.end(), [](const ClipPath& a, const ClipPath& b) {
-        return a.gamma_x < b.gamma_x;
-    });
+    std::stable_sort(kept.begin(), kept.end(),
+                     [](const ClipPath& a, const ClipPath& b) { return a.gamma_x < b.gamma_x; });
     path.clips = std::move(kept);
     path.free_slope = path.largest_slope;
     for (const ClipPath& clip : path.clips) {

@@ -31,9 +31,9 @@ struct ClipPath {
 
 struct MatrixPath {
     Bounces bounces;
-    double shift_x = 0, shift_y = 0;      // of the iris in the picture per slope, px
-    double u_per_px = 0, v_per_px = 0;    // picture x to the right, y downwards
-    double entrance_x = 0, entrance_y = 0;          // p per iris unit, mm
+    double shift_x = 0, shift_y = 0;                    // of the iris in the picture per slope, px
+    double u_per_px = 0, v_per_px = 0;                  // picture x to the right, y downwards
+    double entrance_x = 0, entrance_y = 0;              // p per iris unit, mm
     double entrance_shift_x = 0, entrance_shift_y = 0;  // p per slope at the iris's centre, mm
     // Of a system that is the same in both meridians: beyond largest_slope all light is blocked,
     // below free_slope nothing but the iris clips, and `clips`, in rising order of gamma, are those

@@ -11,6 +11,8 @@ namespace {
 // A light whose image is so much blurred that no edge of a ghost is left of full height is drawn as
 // a spot: half the width of the edge over the radius of what is open.
 constexpr double kWidestEdge = 0.5;
+// Rays from the middle of the iris measure what is left of it unless it is small.
+constexpr double kLeastForSectors = 0.3;
 
 std::vector<MatrixPath> paths_of(const Lens& lens, const Iris& iris, const Film& film,
                                  std::span<const Bounces> ghosts) {
@@ -38,7 +40,8 @@ MatrixPlacement::MatrixPlacement(const Lens& lens, const Film& film, const Pupil
     : pupil_(pupil),
       film_(film),
       paths_(paths_of(lens, *pupil.iris, film, ghosts)),
-      colors_(lens, *pupil.iris, paths_) {
+      colors_(lens, *pupil.iris, paths_),
+      sectors_(*pupil.iris) {
     std::size_t most = 0;
     for (const MatrixPath& path : paths_) most = std::max(most, path.clips.size());
     discs_.resize(most + 1);
@@ -91,8 +94,8 @@ MatrixGhost::Clip MatrixPlacement::clip_of(const Source& source, const MatrixPat
     if (source.extended) {
         const double moment = 0.5 * (clip.shift_x * clip.shift_x * source.moment_xx +
                                      clip.shift_y * clip.shift_y * source.moment_yy);
-        const double per_px = std::sqrt(std::abs(path.u_per_px * path.v_per_px /
-                                                 (clip.radius_u * clip.radius_v)));
+        const double per_px =
+            std::sqrt(std::abs(path.u_per_px * path.v_per_px / (clip.radius_u * clip.radius_v)));
         result.edge = static_cast<float>(half_width(moment) * per_px);
     }
     return result;
@@ -110,11 +113,13 @@ bool MatrixPlacement::open_round(const Source& source, const MatrixPath& path, M
     const Iris& iris = *pupil_.iris;
     const std::size_t count = path.clips.size();
     std::size_t size = 0;
+    std::size_t iris_at = 0;
     bool iris_listed = false;
     for (std::size_t k = 0; k <= count; ++k) {
         if (!iris_listed && (k == count || path.clips[k].gamma_x >= 0)) {
-            const double reach = pupil_.texture != nullptr ? pupil_.outer_radius(0)
-                                                           : iris.outer_radius();
+            const double reach =
+                pupil_.texture != nullptr ? pupil_.outer_radius(0) : iris.outer_radius();
+            iris_at = size;
             discs_[size++] = {0, reach, -1};
             iris_listed = true;
         }
@@ -130,8 +135,10 @@ bool MatrixPlacement::open_round(const Source& source, const MatrixPath& path, M
         return clip.outer(iris) - std::abs(clip.gamma_x) * source.slope;
     };
     int nearest[MatrixGhost::kMaxClips];
+    bool iris_cuts = false;
     for (int e = 0; e < common.edges; ++e) {
         const int k = common.edge[e];
+        iris_cuts = iris_cuts || k < 0 || path.clips[static_cast<std::size_t>(k)].iris;
         if (k < 0) continue;
         int at = ghost.clip_count;
         while (at > 0 && reach_of(nearest[at - 1]) > reach_of(k)) --at;
@@ -143,12 +150,26 @@ bool MatrixPlacement::open_round(const Source& source, const MatrixPath& path, M
     for (int j = 0; j < ghost.clip_count; ++j) {
         ghost.clips[j] = clip_of(source, path, path.clips[static_cast<std::size_t>(nearest[j])]);
     }
-    if (iris.shape().blades == 0 && !pupil_.has_pictures()) {
+    if (pupil_.has_pictures()) {
+        if (ghost.clip_count == 0 && pupil_.occluder == nullptr) open = whole_;
+        return true;
+    }
+    if (ghost.clip_count == 0) {
+        open = whole_;
+        return true;
+    }
+    bool round_edges = iris.shape().blades == 0;
+    if (!round_edges && !iris_cuts) {
+        // Housings alone are left if what they leave lies within the blades.
+        discs_[iris_at].radius = iris.inner_radius();
+        round_edges = common_area({discs_.data(), size}, scratch_).area >= common.area;
+    }
+    if (round_edges) {
         open.area = common.area;
         open.middle_u = common.middle * source.slope_x / source.slope;
         open.middle_v = common.middle * source.slope_y / source.slope;
-    } else if (ghost.clip_count == 0 && pupil_.occluder == nullptr) {
-        open = whole_;
+    } else if (common.area > kLeastForSectors) {
+        open = sectors_.open_area({ghost.clips, static_cast<std::size_t>(ghost.clip_count)});
     }
     return true;
 }
@@ -211,12 +232,12 @@ void MatrixPlacement::place_one(const Source& source, std::size_t index, MatrixG
                 static_cast<float>(path.entrance_shift_y * source.slope_y),
                 static_cast<float>(path.entrance_y)};
     OpenArea open = {-1, 0, 0};
-    const bool passes = path.round ? open_round(source, path, ghost, open)
-                                   : open_stretched(source, path, ghost);
+    const bool passes =
+        path.round ? open_round(source, path, ghost, open) : open_stretched(source, path, ghost);
     if (!passes) return block(ghost);
     if (open.area < 0) {
-        open = open_area(pupil_, entrance,
-                         {ghost.clips, static_cast<std::size_t>(ghost.clip_count)});
+        open =
+            open_area(pupil_, entrance, {ghost.clips, static_cast<std::size_t>(ghost.clip_count)});
     }
     if (!(open.area > 0)) return block(ghost);
 

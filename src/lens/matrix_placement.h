@@ -9,6 +9,7 @@
 #include "lens/matrix_open_area.h"
 #include "lens/matrix_path.h"
 #include "lens/matrix_pupil.h"
+#include "lens/matrix_sectors.h"
 
 namespace aureole::lens {
 
@@ -47,6 +48,7 @@ class MatrixPlacement {
     std::vector<MatrixPath> paths_;
     MatrixColors colors_;
     std::vector<LineDisc> discs_, scratch_;
+    IrisSectors sectors_;
     OpenArea whole_;  // of a ghost that nothing clips, without dirt
 };
 

@@ -34,8 +34,8 @@ float Pupil::pictures(const Entrance& entrance, float u, float v, float footprin
 float Pupil::outer_radius(float footprint) const noexcept {
     if (texture == nullptr && !iris->is_image()) return static_cast<float>(iris->outer_radius());
     // A texel of a pyramid is up to twice the footprint wide, and interpolation doubles that.
-    const float reach =
-        texture != nullptr ? std::numbers::sqrt2_v<float> : static_cast<float>(iris->outer_radius());
+    const float reach = texture != nullptr ? std::numbers::sqrt2_v<float>
+                                           : static_cast<float>(iris->outer_radius());
     return reach + 4 * footprint;
 }
 

@@ -16,7 +16,9 @@ struct Pupil {
     const TransmissionPyramid* texture = nullptr;  // over [-1, 1]^2, in place of the iris; or null
     const Occluder* occluder = nullptr;            // or null
 
-    bool has_pictures() const { return iris->is_image() || texture != nullptr || occluder != nullptr; }
+    bool has_pictures() const {
+        return iris->is_image() || texture != nullptr || occluder != nullptr;
+    }
     // Of the iris of one crossing at its own (u, v), if that is a picture; else 1.
     float iris_picture(float u, float v, float footprint) const noexcept;
     // Of all that are pictures at a point of the drawn iris; averaged over a square of side

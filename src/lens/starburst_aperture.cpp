@@ -48,7 +48,7 @@ wave::Shape moved(wave::Shape shape, double x_mm, double y_mm) {
 // Means of the shape under a quadratic window of two samples' width, (1/4, 1/2, 1/4) of boxes half
 // a sample apart, in place of the box: what lies beyond the band is folded back into it, and at
 // half the band the box leaves 1 % of it, as spikes in directions where there are none. The window
-// leaves .05 %. Boxes at whole samples are drawn once and shared by neighbours.
+// leaves .1 %. Boxes at whole samples are drawn once and shared by neighbours.
 void draw_smoothly(const wave::Shape& shape, wave::Mask& out) {
     const double half = 0.5 * out.grid.spacing_mm();
     const auto n = static_cast<std::size_t>(out.grid.samples);

@@ -30,6 +30,13 @@ TEST_F(FlareLooks, BlogIsMatrixAndSameSide) {
               report("flare in.exr -o out.exr" + kFast)["ghosts"]["count"].get<int>());
 }
 
+TEST_F(FlareLooks, GhostsBrighterThanThePictureAreTold) {
+    const Outcome bright = run("flare in.exr -o out.exr --tint 1e5" + kFast);
+    EXPECT_TRUE(names_all(bright.err, {"note: ghosts hold", "--tint"}));
+    const Outcome physical = run("flare in.exr -o out.exr" + kFast);
+    EXPECT_EQ(physical.err.find("ghosts hold"), std::string::npos);
+}
+
 TEST_F(FlareLooks, TintScales) {
     const double all = ghosts(kFast);
     EXPECT_NEAR(ghosts(" --tint 0.5" + kFast) / all, 0.5, 1e-4);

@@ -20,13 +20,13 @@ struct StarburstOptions {
 };
 
 // Unit energy: sum(kernel) + off_kernel_energy is 1 in every colour. Beyond the reach of the raster
-// (an eighth of lambda samples / opening, at most 400 pixels) the pattern is continued by its own
-// law for apertures with edges, energy per solid angle ~ theta^-3 along every direction; spikes of
-// straight blades keep their width.
-// `occluder` may be null: dirt on the front element, of which the entrance pupil sees its middle.
-// Pictures of irises and of dirt are taken as transmission of amplitude: 0 and 1 mean the same
-// either way, .5 lets a quarter of the energy through.
-// 4096 samples need about 270 MB beside the kernel; the time is mostly theirs, not the kernel's.
+// (a quarter of lambda samples / extent of the raster, about 400 pixels at most) the pattern is
+// continued by its own law for apertures with edges, energy per solid angle ~ theta^-3 along every
+// direction; spikes of straight blades keep their width. `occluder` may be null: dirt on the front
+// element, of which the entrance pupil sees its middle. Pictures of irises and of dirt are taken as
+// transmission of amplitude: 0 and 1 mean the same either way, .5 lets a quarter of the energy
+// through.
+// 4096 samples need about 210 MB beside the kernel.
 // Throws InvalidArgument (pupil diameter not positive, a grid of even size or without pitch,
 // options, nothing open), Cancelled.
 wave::Psf starburst_psf(const Iris& iris, double pupil_diameter_mm, const wave::KernelGrid& grid,
