@@ -66,7 +66,7 @@ struct TracedGhosts::Impl {
         }
         paints.reserve(at_once);
         items.reserve(at_once);
-        if (options.method == GhostMethod::kHybrid) comparison.emplace(a_lens, a_film, ghosts);
+        comparison.emplace(a_lens, a_film, ghosts);
     }
 
     void prepare(const sources::Light& light, const GhostDraw& draw, const Canvas& canvas,
@@ -146,8 +146,7 @@ void TracedGhosts::Impl::prepare_blur(const sources::Light& light, int index,
 }
 
 MeshJob TracedGhosts::Impl::job_for(const sources::Light& light, const Item& item,
-                                    const Canvas& canvas,
-                                    std::vector<RayStep>& scratch) const {
+                                    const Canvas& canvas, std::vector<RayStep>& scratch) const {
     const GhostNow& ghost = of(*item.draw);
     const CanvasLevel& level = canvas.level(ghost.level);
     const int index = item.draw->ghost;
@@ -204,9 +203,8 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
     Impl& m = *impl_;
     if (!m.tiles) m.tiles.emplace(canvas);
     m.rays = 0;
-    parallel_for(ghosts.size(), [&](std::size_t g, int worker) {
-        m.prepare(light, ghosts[g], canvas, worker);
-    });
+    parallel_for(ghosts.size(),
+                 [&](std::size_t g, int worker) { m.prepare(light, ghosts[g], canvas, worker); });
     for (TracedBands::Probe& probe : m.probes) m.rays += probe.take_rays();
 
     // In batches: trace, then draw.
@@ -216,8 +214,8 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
         m.items.clear();
         while (next < ghosts.size() && m.items.size() < m.meshes.size()) {
             const GhostNow& ghost = m.of(ghosts[next]);
-            const int bands = ghost.in_strata ? m.bands.count() * TracedBands::kStrata
-                                              : m.bands.count();
+            const int bands =
+                ghost.in_strata ? m.bands.count() * TracedBands::kStrata : m.bands.count();
             if (ghost.light.found.entrance.empty() || band == bands) {
                 ++next;
                 band = 0;
@@ -248,10 +246,9 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
 }
 
 void TracedGhosts::compare(const sources::Light& light, std::span<const MatrixGhost> placements,
-                           std::span<float> difference) {
+                           std::span<GhostComparison> comparisons) {
     Impl& m = *impl_;
-    assert(m.comparison);
-    m.comparison->compare(light, m.mask, placements, difference);
+    m.comparison->compare(light, m.mask, placements, comparisons);
 }
 
 std::size_t TracedGhosts::rays() const noexcept { return impl_->rays; }
