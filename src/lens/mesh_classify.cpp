@@ -14,15 +14,17 @@ HWY_BEFORE_NAMESPACE();
 namespace aureole::lens::HWY_NAMESPACE {
 namespace {
 
-// Cells whose cubics may be farther off than this (pixels) are refined, ...
+// Cells are refined whose cubics may be farther off than this (pixels), or that are larger than
+// that, if their area also changes by more than this factor between corners: near folds. Elsewhere
+// an error of position does not show.
 constexpr float kRough = 0.25F;
-// ... and those that are larger, since most of what they are is elsewhere.
 constexpr float kLargestCell = 64;
+constexpr float kRoughStretch = 2;
 // Of a cell that is drawn by pieces; beyond, they no longer touch each other.
 constexpr float kMostPieces = 128;
 // Facets: cells of at least so many square pixels at all corners, which differ at most by so much.
 constexpr float kSmallestFacet = 4;
-constexpr float kMostStretch = 1.6F;
+constexpr float kMostStretch = 1.35F;
 
 HWY_INLINE V third_difference(const float* from, std::ptrdiff_t step) {
     const V outer = hn::Sub(load(from + 2 * step), load(from - step));
@@ -60,14 +62,51 @@ void store_states(M open, M masked, M refined, int count, std::uint8_t* to) {
     kind = hn::IfThenElse(masked, set(kCellMasked), kind);
     kind = hn::IfThenElse(refined, set(kCellRefined), kind);
     hn::Store(kind, d, kinds);
-    for (int k = 0; k < count; ++k) to[k] = static_cast<std::uint8_t>(kinds[k]);
+    for (int k = 0; k < count; ++k) {
+        if (to[k] != kCellRefined) to[k] = static_cast<std::uint8_t>(kinds[k]);
+    }
+}
+
+// Signed area that a cell would have if it were as around the vertex.
+HWY_INLINE V area_around(const Mesh& mesh, std::ptrdiff_t at) {
+    const std::ptrdiff_t s = mesh.stride;
+    const auto change = [&](const float* field, std::ptrdiff_t step) {
+        return hn::Sub(load(field + at + step), load(field + at - step));
+    };
+    const V cross = hn::MulSub(change(mesh.x, 1), change(mesh.y, s),
+                               hn::Mul(change(mesh.y, 1), change(mesh.x, s)));
+    return hn::Mul(set(0.25F), cross);
+}
+
+// Is an area, which has these bounds over cells, of one sign and much the same?
+HWY_INLINE M is_even(V low, V high, float least, float most_ratio) {
+    const auto positive = [&](V from, V to) {
+        return hn::And(hn::Ge(from, set(least)), hn::Le(to, hn::Mul(from, set(most_ratio))));
+    };
+    return hn::Or(positive(low, high), positive(hn::Neg(high), hn::Neg(low)));
+}
+
+// At the corners of cells.
+HWY_INLINE M is_nearly_even(const Mesh& mesh, std::ptrdiff_t at) {
+    const V a = area_around(mesh, at);
+    const V b = area_around(mesh, at + 1);
+    const V c = area_around(mesh, at + mesh.stride);
+    const V e = area_around(mesh, at + mesh.stride + 1);
+    return is_even(hn::Min(hn::Min(a, b), hn::Min(c, e)), hn::Max(hn::Max(a, b), hn::Max(c, e)),
+                   0, kRoughStretch);
 }
 
 void classify(const Mesh& mesh, const ClassifyOptions& options) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
-    std::fill(mesh.state, mesh.state + static_cast<std::ptrdiff_t>(mesh.columns) * mesh.rows,
-              kCellDead);
+    const std::ptrdiff_t cells = static_cast<std::ptrdiff_t>(mesh.columns) * mesh.rows;
+    if (options.upsampled) {
+        for (std::ptrdiff_t k = 0; k < cells; ++k) {
+            if (mesh.state[k] != kCellRefined) mesh.state[k] = kCellDead;
+        }
+    } else {
+        std::fill(mesh.state, mesh.state + cells, kCellDead);
+    }
     for (int row = 1; row + 2 < mesh.rows; ++row) {
         for (int column = 1; column + 2 < mesh.columns; column += kLanes) {
             const std::ptrdiff_t at = row * s + column;
@@ -96,28 +135,22 @@ void classify(const Mesh& mesh, const ClassifyOptions& options) {
                 hn::And(passes, hn::And(meets(Reach(xs), options.x0, options.x1),
                                         meets(Reach(ys), options.y0, options.y1)));
             if (hn::AllFalse(d, hn::Or(drawn, broken))) continue;
-            const V off = hn::Max(cubic_error(mesh.x + at, s), cubic_error(mesh.y + at, s));
-            const V size = hn::Max(hn::Sub(xs.high, xs.low), hn::Sub(ys.high, ys.low));
-            const M rough = hn::Or(hn::Gt(off, set(kRough)), hn::Gt(size, set(kLargestCell)));
+            M refined = hn::FirstN(d, 0);
+            if (!options.upsampled) {
+                const V off = hn::Max(cubic_error(mesh.x + at, s), cubic_error(mesh.y + at, s));
+                const V size = hn::Max(hn::Sub(xs.high, xs.low), hn::Sub(ys.high, ys.low));
+                const M rough = hn::Or(hn::Gt(off, set(kRough)), hn::Gt(size, set(kLargestCell)));
+                refined = hn::Or(hn::AndNot(is_nearly_even(mesh, at), hn::And(drawn, rough)),
+                                 broken);
+            }
             M cut = hn::Or(hn::Gt(hn::Add(clip.high, spread), set(1)),
                            hn::Gt(far, set(options.inner_radius)));
             if (options.all_masked) cut = drawn;
-            store_states(drawn, hn::And(drawn, cut), hn::Or(hn::And(drawn, rough), broken),
+            store_states(drawn, hn::And(drawn, cut), refined,
                          std::min(kLanes, mesh.columns - 2 - column),
                          mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns + column);
         }
     }
-}
-
-// Signed area that a cell would have if it were as around the vertex.
-HWY_INLINE V area_around(const Mesh& mesh, std::ptrdiff_t at) {
-    const std::ptrdiff_t s = mesh.stride;
-    const auto change = [&](const float* field, std::ptrdiff_t step) {
-        return hn::Sub(load(field + at + step), load(field + at - step));
-    };
-    const V cross = hn::MulSub(change(mesh.x, 1), change(mesh.y, s),
-                               hn::Mul(change(mesh.y, 1), change(mesh.x, s)));
-    return hn::Mul(set(0.25F), cross);
 }
 
 // Weights of vertices: 1 where all four cells are fit for facets, whether light passes or not, so
@@ -138,12 +171,7 @@ void weigh_facets(const Mesh& mesh, float* area, float* fit) {
         for (int column = 1; column + 2 < mesh.columns; column += kLanes) {
             const std::ptrdiff_t at = row * s + column;
             const CellBounds areas(area + at, s);
-            const auto even = [&](V low, V high) {
-                return hn::And(hn::Ge(low, set(kSmallestFacet)),
-                               hn::Le(high, hn::Mul(low, set(kMostStretch))));
-            };
-            const M fits = hn::And(hn::Or(even(areas.low, areas.high),
-                                          even(hn::Neg(areas.high), hn::Neg(areas.low))),
+            const M fits = hn::And(is_even(areas.low, areas.high, kSmallestFacet, kMostStretch),
                                    hn::Lt(CellBounds(mesh.clip + at, s).high, set(kLostRay)));
             hn::StoreU(hn::IfThenElseZero(hn::And(fits, cells_from(mesh, column)), set(1)), d,
                        fit + at);

@@ -39,7 +39,7 @@ struct Mesh {
 inline constexpr int kMeshFields = 9;
 
 inline constexpr int kGroup = 16;               // cells along a row that are drawn together
-inline constexpr int kMeshPadding = 3 * kGroup;  // floats behind the last row that may be read
+inline constexpr int kMeshPadding = 4 * kGroup;  // floats behind the last row that are used up
 
 // Cells [column, column + kGroup) of a row that have light to draw.
 struct MeshGroup {

@@ -51,9 +51,6 @@ class TracedMesh {
     std::size_t rays() const noexcept { return rays_; }
     static std::size_t bytes(int side);
 
-    // The grid, for comparisons.
-    const Mesh& grid() const noexcept { return grid_; }
-
   private:
     // Throughput varies slowly: it is traced for every 4th ray, and interpolated by cubics.
     static constexpr int kSparse = 4;
@@ -64,6 +61,8 @@ class TracedMesh {
     static constexpr int kPatchColumns = kRun * kFiner + 3;
     static constexpr int kPatchRows = kFiner + 3;
     static constexpr int kMaxPatches = 256;
+    // A grid is upsampled up to so many vertices per side.
+    static constexpr int kFineSide = 300;
     static constexpr int kMaxDepth = 3;
     static_assert(ray_stride(kPatchColumns) == kRayBlock);
 
@@ -83,6 +82,7 @@ class TracedMesh {
                                 float scale) const noexcept;
     void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
                 int depth) noexcept;
+    int upsampling(int side) const noexcept;
     void add_bounds(std::span<const MeshGroup> groups) noexcept;
     void draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups, const MeshMask& mask,
                      const MeshTile& tile) const noexcept;
@@ -91,6 +91,8 @@ class TracedMesh {
     int sparse_side_;
     Buffer memory_;
     Mesh grid_;
+    Mesh fine_;  // the grid upsampled, if that is what is drawn
+    bool upsampled_ = false;
     RayBundle bundle_;
     float* sparse_ = nullptr;
     float* sparse_row_ = nullptr;  // between rows of it
