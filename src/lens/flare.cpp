@@ -29,15 +29,15 @@ void require_weights(const char* name, const std::array<float, 3>& rgb) {
     }
 }
 
-// How much of the square around a ghost lies inside the picture.
+// How much of the square around what is open of a ghost lies inside the picture.
 double share_inside(const MatrixGhost& ghost, const Film& film) {
-    const double radius = std::max(0.5, static_cast<double>(ghost.radius_px));
+    const double radius = std::max(0.5, static_cast<double>(ghost.open_radius_px));
     const auto overlap = [&](double centre, double size) {
         const double low = std::max(0.0, centre - radius);
         const double high = std::min(size, centre + radius);
         return std::max(0.0, high - low) / (2 * radius);
     };
-    return overlap(ghost.center_x, film.width) * overlap(ghost.center_y, film.height);
+    return overlap(ghost.open_x, film.width) * overlap(ghost.open_y, film.height);
 }
 
 }  // namespace
@@ -141,7 +141,7 @@ void Flare::Impl::estimate(const sources::Light& light) {
         estimate.energy = ghost.energy * mean_gain * share_inside(ghost, film);
         estimate.radiance =
             (ghost.radiance[0] + ghost.radiance[1] + ghost.radiance[2]) / 3.0 * mean_gain;
-        estimate.radius_px = ghost.radius_px;
+        estimate.radius_px = ghost.open_radius_px;
         estimate.difference = -1;
     }
     if (!traced) return;
