@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kLeastFineBands = 16;
 // Rays that stand for a ghost: a block in each of some rows.
-constexpr int kProbeRows = 2;
+constexpr int kProbeRows = 4;
 constexpr std::size_t kProbeRays = kRayBlock * kProbeRows;
 
 int fine_count(int strata) { return strata * ((kLeastFineBands + strata - 1) / strata); }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "lens/mesh_classify.h"
 #include "lens/mesh_facets.h"
@@ -358,10 +356,6 @@ void TracedMesh::build(const MeshJob& job) noexcept {
         mesh_classifier().classify(patch.mesh, options);
         refine(job, patch.mesh, patch.i, patch.j, patch.step, patch.depth);
         patch.group_count = divide(patch.mesh);
-    }
-    if (getenv("DBG")) {
-        double pieces = 0, most = 0; for (int g = 0; g < group_count_; ++g) { double p = 16.0*groups_[g].pieces_i*groups_[g].pieces_j; pieces += p; if (p>most) most=p; }
-        printf("mesh groups %d patches %d pieces %g most %g bounds %d %d %d %d box %g %g %g %g\n", grid_groups_, patch_count_, pieces, most, bounds_.x0, bounds_.x1, bounds_.y0, bounds_.y1, job.box.x0, job.box.x1, job.box.y0, job.box.y1);
     }
 }
 
