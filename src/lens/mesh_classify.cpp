@@ -22,9 +22,10 @@ constexpr float kLargestCell = 64;
 constexpr float kRoughStretch = 2;
 // Of a cell that is drawn by pieces; beyond, they no longer touch each other.
 constexpr float kMostPieces = 128;
-// Facets: cells of at least so many square pixels at all corners, which differ at most by so much.
-constexpr float kSmallestFacet = 4;
-constexpr float kMostStretch = 1.35F;
+// Facets: cells with at least so many pixels between opposite sides, and areas that differ at most
+// by so much between corners.
+constexpr float kThinnestFacet = 1.5F;
+constexpr float kMostStretch = 1.6F;
 
 HWY_INLINE V third_difference(const float* from, std::ptrdiff_t step) {
     const V outer = hn::Sub(load(from + 2 * step), load(from - step));
@@ -153,26 +154,44 @@ void classify(const Mesh& mesh, const ClassifyOptions& options) {
     }
 }
 
-// Weights of vertices: 1 where all four cells are fit for facets, whether light passes or not, so
-// that no aperture's edge is a border between the two ways of drawing. area[] by vertex receives
-// that around it; fit[] is scratch.
+// Is the shorter height of a parallelogram with these bounds of its area and its sides long enough?
+HWY_INLINE M is_thick(const Mesh& mesh, std::ptrdiff_t at, V least_area) {
+    const std::ptrdiff_t s = mesh.stride;
+    const auto side2 = [&](std::ptrdiff_t step) {
+        const V x = hn::Sub(load(mesh.x + at + step), load(mesh.x + at));
+        const V y = hn::Sub(load(mesh.y + at + step), load(mesh.y + at));
+        return hn::MulAdd(x, x, hn::Mul(y, y));
+    };
+    const V longer2 = hn::Max(side2(1), side2(s));
+    return hn::Ge(hn::Mul(least_area, least_area),
+                  hn::Mul(set(kThinnestFacet * kThinnestFacet), longer2));
+}
+
+// Weights of vertices: 1 where all is fit for facets, whether light passes or not, so that no
+// aperture's edge is a border between the two ways of drawing; falling to 0 over some cells, since
+// pieces are blurred by a pixel and facets are not. area[] by vertex receives that around it; fit[]
+// is scratch.
 void weigh_facets(const Mesh& mesh, float* area, float* fit) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
-    for (int row = 1; row + 1 < mesh.rows; ++row) {
-        for (int column = 1; column + 1 < mesh.columns; column += kLanes) {
-            const std::ptrdiff_t at = row * s + column;
-            hn::StoreU(area_around(mesh, at), d, area + at);
+    const auto for_vertices = [&](auto&& visit) {
+        for (int row = 1; row + 1 < mesh.rows; ++row) {
+            for (int column = 1; column + 1 < mesh.columns; column += kLanes) {
+                visit(row * s + column);
+            }
         }
-    }
+    };
+    for_vertices([&](std::ptrdiff_t at) { hn::StoreU(area_around(mesh, at), d, area + at); });
     std::fill(fit, fit + s * mesh.rows, 0.0F);
     for (int row = 1; row + 2 < mesh.rows; ++row) {
         const std::uint8_t* states = mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
         for (int column = 1; column + 2 < mesh.columns; column += kLanes) {
             const std::ptrdiff_t at = row * s + column;
             const CellBounds areas(area + at, s);
-            const M fits = hn::And(is_even(areas.low, areas.high, kSmallestFacet, kMostStretch),
-                                   hn::Lt(CellBounds(mesh.clip + at, s).high, set(kLostRay)));
+            M fits = hn::And(is_even(areas.low, areas.high, 1e-3F, kMostStretch),
+                             hn::Lt(CellBounds(mesh.clip + at, s).high, set(kLostRay)));
+            const V least = hn::Min(hn::Abs(areas.low), hn::Abs(areas.high));
+            fits = hn::And(fits, is_thick(mesh, at, least));
             hn::StoreU(hn::IfThenElseZero(hn::And(fits, cells_from(mesh, column)), set(1)), d,
                        fit + at);
         }
@@ -180,13 +199,25 @@ void weigh_facets(const Mesh& mesh, float* area, float* fit) {
             if (states[column] == kCellRefined) fit[row * s + column] = 0;
         }
     }
-    for (int row = 1; row + 1 < mesh.rows; ++row) {
-        for (int column = 1; column + 1 < mesh.columns; column += kLanes) {
-            const std::ptrdiff_t at = row * s + column;
-            const V all = hn::Mul(hn::Mul(load(fit + at), load(fit + at - 1)),
-                                  hn::Mul(load(fit + at - s), load(fit + at - s - 1)));
-            hn::StoreU(all, d, mesh.smooth + at);
-        }
+    for_vertices([&](std::ptrdiff_t at) {
+        const V all = hn::Mul(hn::Mul(load(fit + at), load(fit + at - 1)),
+                              hn::Mul(load(fit + at - s), load(fit + at - s - 1)));
+        hn::StoreU(all, d, mesh.smooth + at);
+    });
+    // Twice the mean with the neighbours, where it is not 0 anyway.
+    for (int round = 0; round < 2; ++round) {
+        std::copy(mesh.smooth, mesh.smooth + s * mesh.rows, fit);
+        for_vertices([&](std::ptrdiff_t at) {
+            const V own = load(fit + at);
+            const auto of_row = [&](std::ptrdiff_t k) {
+                return hn::Add(load(fit + k), hn::Add(load(fit + k - 1), load(fit + k + 1)));
+            };
+            const V mean = hn::Mul(hn::Add(of_row(at), hn::Add(of_row(at - s), of_row(at + s))),
+                                   set(1.0F / 9));
+            // Exactly 1 in the middle of ones.
+            const V weight = hn::IfThenElse(hn::Ge(mean, set(0.9999F)), set(1), mean);
+            hn::StoreU(hn::IfThenElseZero(hn::Gt(own, hn::Zero(d)), weight), d, mesh.smooth + at);
+        });
     }
 }
 
@@ -260,9 +291,10 @@ int divide(const Mesh& mesh, MeshGroup* groups) {
                 if (!hn::AllFalse(d, pieced)) {
                     any_pieces = true;
                     const auto largest = [&](std::ptrdiff_t step, std::ptrdiff_t beside) {
+                        const V x = largest_changes(mesh.x + at, step, beside);
+                        const V y = largest_changes(mesh.y + at, step, beside);
                         return hn::IfThenElseZero(
-                            pieced, hn::Max(largest_changes(mesh.x + at, step, beside),
-                                            largest_changes(mesh.y + at, step, beside)));
+                            pieced, hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y))));
                     };
                     along = hn::Max(along, largest(1, s));
                     across = hn::Max(across, largest(s, 1));
@@ -285,7 +317,7 @@ int divide(const Mesh& mesh, MeshGroup* groups) {
             if (any_facets) groups[count++] = facets;
             if (any_pieces) {
                 const auto parts = [](V change) {
-                    return static_cast<std::int16_t>(pieces_for(highest(change), kMostPieces));
+                    return static_cast<std::int16_t>(pieces_for(highest(change), kPiecesPerPx, kMostPieces));
                 };
                 pieces.pieces_i = parts(along);
                 pieces.pieces_j = parts(across);

@@ -223,10 +223,11 @@ HWY_INLINE void scatter(const MeshTile& tile, const Overlap& x, const Overlap& y
     }
 }
 
-// The width of the rectangle with the second moment that the piece has along one axis.
-HWY_INLINE V width_of(V change_i, V change_j) {
-    const V width = hn::Sqrt(hn::MulAdd(change_i, change_i, hn::Mul(change_j, change_j)));
-    return hn::Min(hn::Max(width, set(1e-3F)), set(1));
+// How wide a piece is drawn along one axis: so many times as wide as a rectangle with the same
+// second moment, and no wider than a pixel.
+HWY_INLINE V width_of(V change_i, V change_j, float times) {
+    const V own = hn::Sqrt(hn::MulAdd(change_i, change_i, hn::Mul(change_j, change_j)));
+    return hn::Min(hn::Max(hn::Mul(set(times), own), set(1e-3F)), set(1));
 }
 
 // Cells of few pieces: a lane for each cell, one piece of each at a time.
@@ -265,8 +266,8 @@ void draw_cells(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
                     energy = hn::Mul(energy,
                                      light_through(mask, mesh, group, line, lane, t, tj));
                 }
-                const Overlap x = lay(middle_x, width_of(xi, xj));
-                const Overlap y = lay(middle_y, width_of(yi, yj));
+                const Overlap x = lay(middle_x, width_of(xi, xj, 2));
+                const Overlap y = lay(middle_y, width_of(yi, yj, 2));
                 const M kept = hn::And(touching(tile, x.first, y.first),
                                        hn::Gt(energy, hn::Zero(d)));
                 if (!hn::AllFalse(d, kept)) scatter(tile, x, y, kept, energy);
@@ -349,21 +350,60 @@ HWY_INLINE V facet_weight(const float* smooth, std::ptrdiff_t stride, V i, V j) 
     return hn::MulAdd(apart, hn::Sub(beside, set(smooth[0])), on_diagonal);
 }
 
+// Some of the pieces of a cell that is divided into so many.
+struct CellPart {
+    int row = 0, column = 0;
+    int pieces_i = 1, pieces_j = 1;
+    int first_i = 0, first_j = 0, count_i = 0, count_j = 0;
+};
+
+// Is all that a part draws outside the tile? It stays near the four corners of itself.
+bool is_outside(const Mesh& mesh, const CellPart& part, const MeshTile& tile) {
+    const auto outside = [&](const float* field, int low, int high) {
+        float least = 1e9F;
+        float most = -1e9F;
+        for (const int corner : {0, 1, 2, 3}) {
+            const Cubic i(static_cast<float>(part.first_i + (corner % 2) * part.count_i) /
+                          static_cast<float>(part.pieces_i));
+            const Cubic j(static_cast<float>(part.first_j + (corner / 2) * part.count_j) /
+                          static_cast<float>(part.pieces_j));
+            const float* before = field + (part.row - 1) * mesh.stride + part.column - 1;
+            float sum = 0;
+            for (int m = 0; m < 4; ++m) {
+                const float* at = before + m * mesh.stride;
+                sum += j.value[m] * (i.value[0] * at[0] + i.value[1] * at[1] + i.value[2] * at[2] +
+                                     i.value[3] * at[3]);
+            }
+            least = std::min(least, sum);
+            most = std::max(most, sum);
+        }
+        const float more = 0.5F * (most - least) + 1.5F;
+        return most + more < static_cast<float>(low) || least - more > static_cast<float>(high);
+    };
+    return outside(mesh.y, tile.y0, tile.y1) || outside(mesh.x, tile.x0, tile.x1);
+}
+
 // Cells of many pieces, one cell at a time: a lane for each piece.
-void draw_cell(const Mesh& mesh, int row, int column, int pieces_i, int pieces_j,
-               const MeshMask& mask, bool masked, const MeshTile& tile) {
+void draw_part(const Mesh& mesh, const CellPart& part, const MeshMask& mask,
+               const MeshTile& tile) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
-    const std::ptrdiff_t at = row * s + column;
-    const int count = pieces_i * pieces_j;
-    const V step_i = set(1 / static_cast<float>(pieces_i));
-    const V step_j = set(1 / static_cast<float>(pieces_j));
-    const V per_piece = set(mesh.share[at] / static_cast<float>(count));
+    const std::ptrdiff_t at = part.row * s + part.column;
+    const bool masked =
+        mesh.state[static_cast<std::ptrdiff_t>(part.row) * mesh.columns + part.column] ==
+        kCellMasked;
+    const auto pieces = static_cast<float>(part.pieces_i * part.pieces_j);
+    const V step_i = set(1 / static_cast<float>(part.pieces_i));
+    const V step_j = set(1 / static_cast<float>(part.pieces_j));
+    const V per_line = set(1 / static_cast<float>(part.count_i));
+    const V per_piece = set(mesh.share[at] / pieces);
+    const int count = part.count_i * part.count_j;
     for (int first = 0; first < count; first += kLanes) {
         const V index = hn::Iota(d, static_cast<float>(first) + 0.5F);
-        const V line = hn::Floor(hn::Mul(index, step_i));
-        const V i = hn::Mul(hn::NegMulAdd(line, set(static_cast<float>(pieces_i)), index), step_i);
-        const V j = hn::Mul(hn::Add(line, set(0.5F)), step_j);
+        const V line = hn::Floor(hn::Mul(index, per_line));
+        const V in_line = hn::NegMulAdd(line, set(static_cast<float>(part.count_i)), index);
+        const V i = hn::Mul(hn::Add(in_line, set(static_cast<float>(part.first_i))), step_i);
+        const V j = hn::Mul(hn::Add(line, set(static_cast<float>(part.first_j) + 0.5F)), step_j);
         const Cubics cubic_i(i);
         const Cubics cubic_j(j);
         const PiecePosition y(mesh.y + at, s, cubic_i, cubic_j, step_i, step_j);
@@ -378,32 +418,38 @@ void draw_cell(const Mesh& mesh, int row, int column, int pieces_i, int pieces_j
             place.v = bilinear(mesh.v + at, s, i, j, step_i, step_j);
             place.clip = bilinear(mesh.clip + at, s, i, j, step_i, step_j);
             place.entrance_x =
-                hn::MulAdd(hn::Add(i, set(static_cast<float>(column))),
+                hn::MulAdd(hn::Add(i, set(static_cast<float>(part.column))),
                            set(mesh.entrance_step_x), set(mesh.entrance_x));
-            place.entrance_y = hn::MulAdd(hn::Add(j, set(static_cast<float>(row))),
+            place.entrance_y = hn::MulAdd(hn::Add(j, set(static_cast<float>(part.row))),
                                           set(mesh.entrance_step_y), set(mesh.entrance_y));
-            place.entrance_width = std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y /
-                                             static_cast<float>(count));
+            place.entrance_width =
+                std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y / pieces);
             energy = hn::Mul(energy, light_at(mask, place));
         }
-        const Overlap on_x = lay(x.value, width_of(x.along, x.across));
-        const Overlap on_y = lay(y.value, width_of(y.along, y.across));
+        const Overlap on_x = lay(x.value, width_of(x.along, x.across, 1));
+        const Overlap on_y = lay(y.value, width_of(y.along, y.across, 1));
         const M kept = hn::And(hn::And(exist, hn::Gt(energy, hn::Zero(d))),
                                touching(tile, on_x.first, on_y.first));
         if (!hn::AllFalse(d, kept)) scatter(tile, on_x, on_y, kept, energy);
     }
 }
 
-// Is all that a cell draws outside [low, high]? Its cubics stay near its corners.
-bool outside(const float* field, std::ptrdiff_t stride, float low, float high) {
-    const auto [least, most] =
-        std::minmax({field[0], field[1], field[stride], field[stride + 1]});
-    const float more = 0.5F * (most - least) + 1.5F;
-    return most + more < low || least - more > high;
+// In parts, most of which a large cell has elsewhere.
+void draw_cell(const Mesh& mesh, int row, int column, int pieces_i, int pieces_j,
+               const MeshMask& mask, const MeshTile& tile) {
+    constexpr int kPart = 24;  // pieces
+    CellPart part{.row = row, .column = column, .pieces_i = pieces_i, .pieces_j = pieces_j};
+    for (part.first_j = 0; part.first_j < pieces_j; part.first_j += kPart) {
+        part.count_j = std::min(kPart, pieces_j - part.first_j);
+        for (part.first_i = 0; part.first_i < pieces_i; part.first_i += kPart) {
+            part.count_i = std::min(kPart, pieces_i - part.first_i);
+            if (!is_outside(mesh, part, tile)) draw_part(mesh, part, mask, tile);
+        }
+    }
 }
 
 void draw(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask, const MeshTile& tile) {
-    constexpr int kFewPieces = 6;
+    constexpr int kFewPieces = 9;
     if (group.pieces_i * group.pieces_j <= kFewPieces) {
         draw_cells(mesh, group, mask, tile);
         return;
@@ -412,21 +458,14 @@ void draw(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask, const 
     const int last = std::min(group.column + kGroup, mesh.columns - 2);
     for (int column = group.column; column < last; ++column) {
         const std::ptrdiff_t at = group.row * s + column;
-        if (mesh.share[at] == 0 ||
-            outside(mesh.y + at, s, static_cast<float>(tile.y0), static_cast<float>(tile.y1)) ||
-            outside(mesh.x + at, s, static_cast<float>(tile.x0), static_cast<float>(tile.x1))) {
-            continue;
-        }
+        if (mesh.share[at] == 0) continue;
         const auto pieces = [&](std::ptrdiff_t step, std::ptrdiff_t beside, int most) {
-            const float change = std::max(largest_change(mesh.x + at, step, beside),
-                                          largest_change(mesh.y + at, step, beside));
-            return pieces_for(change, static_cast<float>(most));
+            const float length = std::hypot(largest_change(mesh.x + at, step, beside),
+                                            largest_change(mesh.y + at, step, beside));
+            return pieces_for(length, kCoarsePiecesPerPx, static_cast<float>(most));
         };
-        const bool masked =
-            mesh.state[static_cast<std::ptrdiff_t>(group.row) * mesh.columns + column] ==
-            kCellMasked;
         draw_cell(mesh, group.row, column, pieces(1, s, group.pieces_i),
-                  pieces(s, 1, group.pieces_j), mask, masked, tile);
+                  pieces(s, 1, group.pieces_j), mask, tile);
     }
 }
 

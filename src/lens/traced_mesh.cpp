@@ -76,26 +76,20 @@ void continue_throughput(float* values, int columns, int rows, int stride) {
     }
 }
 
-// Where an index of the grid lies between sparse nodes: the four around it, and the weights of a
-// cubic (Catmull & Rom 1974).
-struct SparsePlace {
-    int node[4];
-    float weight[4];
-    SparsePlace(double index, int every, int nodes) {
-        const double at = std::clamp(index / every, 0.0, static_cast<double>(nodes - 1));
-        const int first = std::min(static_cast<int>(at), nodes - 2);
-        const auto t = static_cast<float>(at - first);
-        const float t2 = t * t;
-        const float t3 = t2 * t;
-        weight[0] = 0.5F * (2 * t2 - t - t3);
-        weight[1] = 0.5F * (3 * t3 - 5 * t2 + 2);
-        weight[2] = 0.5F * (4 * t2 + t - 3 * t3);
-        weight[3] = 0.5F * (t3 - t2);
-        for (int k = 0; k < 4; ++k) node[k] = std::clamp(first + k - 1, 0, nodes - 1);
-    }
-};
-
 }  // namespace
+
+TracedMesh::SparsePlace::SparsePlace(double index, int every, int nodes) {
+    const double at = std::clamp(index / every, 0.0, static_cast<double>(nodes - 1));
+    const int first = std::min(static_cast<int>(at), nodes - 2);
+    const auto t = static_cast<float>(at - first);
+    const float t2 = t * t;
+    const float t3 = t2 * t;
+    weight[0] = 0.5F * (2 * t2 - t - t3);
+    weight[1] = 0.5F * (3 * t3 - 5 * t2 + 2);
+    weight[2] = 0.5F * (4 * t2 + t - 3 * t3);
+    weight[3] = 0.5F * (t3 - t2);
+    for (int k = 0; k < 4; ++k) node[k] = std::clamp(first + k - 1, 0, nodes - 1);
+}
 
 int TracedMesh::sparse_side(int side) { return (side - 1 + kSparse - 1) / kSparse + 1; }
 
@@ -114,7 +108,8 @@ TracedMesh::TracedMesh(int side)
                                        kMaxPatches * kPatchColumns * kPatchRows)),
       groups_(most_groups(std::max(side, kFineSide), std::max(side, kFineSide)) +
               kMaxPatches * most_groups(kPatchColumns, kPatchRows)),
-      patches_(kMaxPatches) {
+      patches_(kMaxPatches),
+      places_(static_cast<std::size_t>(std::max(side, kPatchColumns))) {
     std::fill(memory_.data(), memory_.data() + memory_.size(), 0.0F);
     float* memory = memory_.data();
     allocate(grid_, side, side, memory);
@@ -205,8 +200,12 @@ void TracedMesh::trace(const MeshJob& job, Mesh& mesh, double i, double j, doubl
 }
 
 void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double step,
-                                        float scale) const noexcept {
+                                        float scale) noexcept {
     const int stride = ray_stride(sparse_side_);
+    for (int column = 0; column < mesh.columns; ++column) {
+        places_[static_cast<std::size_t>(column)] =
+            SparsePlace(i + column * step, kSparse, sparse_side_);
+    }
     for (int row = 0; row < mesh.rows; ++row) {
         const SparsePlace across(j + row * step, kSparse, sparse_side_);
         for (int k = 0; k < sparse_side_; ++k) {
@@ -216,7 +215,7 @@ void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double s
         }
         float* to = mesh.power + row * mesh.stride;
         for (int column = 0; column < mesh.columns; ++column) {
-            const SparsePlace along(i + column * step, kSparse, sparse_side_);
+            const SparsePlace& along = places_[static_cast<std::size_t>(column)];
             float sum = 0;
             for (int n = 0; n < 4; ++n) sum += along.weight[n] * sparse_row_[along.node[n]];
             to[column] = std::max(0.0F, sum);

@@ -66,6 +66,15 @@ class TracedMesh {
     static constexpr int kMaxDepth = 3;
     static_assert(ray_stride(kPatchColumns) == kRayBlock);
 
+    // Where an index of the grid lies between sparse nodes: the four around it, and the weights of a
+    // cubic (Catmull & Rom 1974).
+    struct SparsePlace {
+        int node[4] = {};
+        float weight[4] = {};
+        SparsePlace() = default;
+        SparsePlace(double index, int every, int nodes);
+    };
+
     struct Patch {
         Mesh mesh;
         int first_group = 0, group_count = 0;
@@ -79,7 +88,7 @@ class TracedMesh {
     void trace(const MeshJob& job, Mesh& mesh, double i, double j, double step) noexcept;
     void trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept;
     void interpolate_throughput(Mesh& mesh, double i, double j, double step,
-                                float scale) const noexcept;
+                                float scale) noexcept;
     void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
                 int depth) noexcept;
     int upsampling(int side) const noexcept;
@@ -100,6 +109,7 @@ class TracedMesh {
     std::vector<MeshGroup> groups_;
     int grid_groups_ = 0;
     std::vector<Patch> patches_;
+    std::vector<SparsePlace> places_;  // of columns
     int patch_count_ = 0;
     int group_count_ = 0;
     Bounds bounds_;
