@@ -13,6 +13,11 @@ struct Bins {
     double x0 = 0, y0 = 0;  // pixels of the picture
     double size = 1;
     int columns = 0, rows = 0;
+    double last_column = 1, last_row = 1;  // how much of these lies in that part
+
+    double share(int column, int row) const {
+        return (column + 1 == columns ? last_column : 1) * (row + 1 == rows ? last_row : 1);
+    }
 };
 
 // Mean coverage of a placement over each bin.
@@ -24,9 +29,9 @@ void draw_placement(const MatrixGhost& ghost, const Iris& iris, const Bins& bins
     };
     for (int j = 0; j < bins.rows; ++j) {
         for (int i = 0; i < bins.columns; ++i) {
-            // Apertures are large against a bin: if its corners agree, all of it does.
-            const auto [low, high] =
-                std::minmax({at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)});
+            // Apertures are large against a bin: if its corners and its middle agree, all does.
+            const auto [low, high] = std::minmax(
+                {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1), at(i + 0.5, j + 0.5)});
             float mean = low;
             if (high != low) {
                 mean = 0;
@@ -43,27 +48,23 @@ void draw_placement(const MatrixGhost& ghost, const Iris& iris, const Bins& bins
 }  // namespace
 
 GhostCompare::Work::Work(const TracedBands& bands)
-    : probe(bands),
-      steps(bands.scratch()),
+    : steps(bands.scratch()),
       sums((kBins + 2) * (kBins + 2)),
       coverage(kBins * kBins),
-      difference(3 * kBins * kBins) {
-    ghost.weights.resize(kBands);
-    ghost.strata_weights.resize(kBands * TracedBands::kStrata);
+      difference(3 * kBins * kBins) {}
+
+GhostCompare::GhostCompare(const Film& film, const TracedBands& bands) : film_(film) {
+    for (int k = 0; k < max_workers(); ++k) work_.emplace_back(bands);
 }
 
-GhostCompare::GhostCompare(const Lens& lens, const Film& film, std::span<const Bounces> ghosts)
-    : film_(film), bands_(lens, ghosts, kBands) {
-    for (int k = 0; k < max_workers(); ++k) work_.emplace_back(bands_);
-}
-
-GhostComparison GhostCompare::comparison_of(int ghost, const sources::Light& light,
-                                            const TracedMask& mask, const MatrixGhost& placement,
-                                            Work& work) const {
+GhostComparison GhostCompare::compare(int ghost, const sources::Light& light,
+                                      const TracedBands& bands, const GhostLight& prepared,
+                                      const TracedMask& mask, const MatrixGhost& placement,
+                                      int worker) {
+    Work& work = work_[static_cast<std::size_t>(worker)];
     const Iris& iris = mask.iris();
     const RayDirection direction(light);
-    bands_.prepare(ghost, direction, picture_on_sensor(film_, 0), mask, work.probe, work.ghost);
-    const EntranceFound& found = work.ghost.found;
+    const EntranceFound& found = prepared.found;
     const bool linear = placement.u_per_px != 0 && placement.v_per_px != 0;
     const bool traced = !found.entrance.empty();
     if (!traced && !linear) return {};
@@ -93,6 +94,8 @@ GhostComparison GhostCompare::comparison_of(int ghost, const sources::Light& lig
     };
     bins.columns = count(box.x1 - box.x0);
     bins.rows = count(box.y1 - box.y0);
+    bins.last_column = std::min(1.0, (box.x1 - box.x0) / bins.size - (bins.columns - 1));
+    bins.last_row = std::min(1.0, (box.y1 - box.y0) / bins.size - (bins.rows - 1));
     std::fill(work.coverage.begin(), work.coverage.end(), 0.0F);
     if (linear) draw_placement(placement, iris, bins, work.coverage.data());
 
@@ -105,7 +108,7 @@ GhostComparison GhostCompare::comparison_of(int ghost, const sources::Light& lig
     film.mm_per_px = film_.mm_per_px * bins.size;
     MeshJob job{.side = kRays,
                 .way = {},
-                .sensor_distance_mm = bands_.sensor_distance_mm(),
+                .sensor_distance_mm = bands.sensor_distance_mm(),
                 .direction = direction,
                 .box = found.entrance,
                 .iris = mask.field(),
@@ -126,38 +129,42 @@ GhostComparison GhostCompare::comparison_of(int ghost, const sources::Light& lig
         }
     }
     double energy = 0;
-    for (int band = 0; traced && band < kBands; ++band) {
-        job.way = bands_.way(ghost, band, work.steps);
+    // With many bands, one stands for its neighbours.
+    const int each = (bands.count() + kMostBands - 1) / kMostBands;
+    for (int first = 0; traced && first < bands.count(); first += each) {
+        const int last = std::min(first + each, bands.count());
+        job.way = bands.way(ghost, (first + last) / 2, work.steps);
         work.mesh.build(job);
         std::fill(work.sums.begin(), work.sums.end(), 0.0F);
         work.mesh.draw(mask.mesh_mask(), tile);
         for (std::size_t c = 0; c < 3; ++c) {
-            const float weight =
-                work.ghost.weights[static_cast<std::size_t>(band)][c] * light.radiance[c];
+            float weight = 0;
+            for (int band = first; band < last; ++band) {
+                weight += prepared.weights[static_cast<std::size_t>(band)][c];
+            }
+            weight *= light.radiance[c];
             float* to = work.difference.data() + c * bin_count;
             for (int j = 0; j < bins.rows; ++j) {
                 for (int i = 0; i < bins.columns; ++i) {
                     const float sum = weight * tile.sums[(j + 1) * tile.stride + i + 1];
-                    energy += sum;
+                    energy += sum * bins.share(i, j);
                     to[j * bins.columns + i] += sum;
                 }
             }
         }
     }
     double difference = 0;
-    for (std::size_t k = 0; k < 3 * bin_count; ++k) difference += std::abs(work.difference[k]);
+    const float* from = work.difference.data();
+    for (int c = 0; c < 3; ++c) {
+        for (int j = 0; j < bins.rows; ++j) {
+            for (int i = 0; i < bins.columns; ++i) {
+                difference += std::abs(*from++) * bins.share(i, j);
+            }
+        }
+    }
     const double area = bins.size * bins.size;
     return {static_cast<float>(std::max(0.0, energy * area)),
             static_cast<float>(difference * area)};
-}
-
-void GhostCompare::compare(const sources::Light& light, const TracedMask& mask,
-                           std::span<const MatrixGhost> placements,
-                           std::span<GhostComparison> comparisons) {
-    parallel_for(placements.size(), [&](std::size_t g, int worker) {
-        comparisons[g] = comparison_of(static_cast<int>(g), light, mask, placements[g],
-                                       work_[static_cast<std::size_t>(worker)]);
-    });
 }
 
 }  // namespace aureole::lens

@@ -13,37 +13,32 @@
 
 namespace aureole::lens {
 
-// Draws each ghost twice, by coarse grids of rays at three wavelengths and by its placement, on a
-// raster of at most kBins x kBins over the part of the picture that the two cover, and adds up the
-// differences. What differs within a bin, a fortieth of the ghost, goes unseen.
+// Draws each ghost twice, by coarse grids of rays at a few of its wavelengths and by its placement,
+// on a raster of at most kBins x kBins over the part of the picture that the two cover, and adds up
+// the differences. What differs within a bin, a fortieth of the ghost, goes unseen.
 class GhostCompare {
   public:
-    GhostCompare(const Lens& lens, const Film& film, std::span<const Bounces> ghosts);
+    GhostCompare(const Film& film, const TracedBands& bands);
 
-    // Of every ghost; `placements` are those of the same light. By several threads.
-    void compare(const sources::Light& light, const TracedMask& mask,
-                 std::span<const MatrixGhost> placements, std::span<GhostComparison> comparisons);
+    // One ghost of a light that was prepared; scratch memory is that of the worker.
+    GhostComparison compare(int ghost, const sources::Light& light, const TracedBands& bands,
+                            const GhostLight& prepared, const TracedMask& mask,
+                            const MatrixGhost& placement, int worker);
 
   private:
     static constexpr int kBins = 40;
     static constexpr int kRays = 32;  // per side of a grid
-    static constexpr int kBands = 3;
+    static constexpr int kMostBands = 6;
 
     // Of one worker.
     struct Work {
         explicit Work(const TracedBands& bands);
-        TracedBands::Probe probe;
-        GhostLight ghost;
         TracedMesh mesh{kRays};
         std::vector<RayStep> steps;
         std::vector<float> sums, coverage, difference;
     };
 
-    GhostComparison comparison_of(int ghost, const sources::Light& light, const TracedMask& mask,
-                                  const MatrixGhost& placement, Work& work) const;
-
     Film film_;
-    TracedBands bands_;
     std::vector<Work> work_;
 };
 

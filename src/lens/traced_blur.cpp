@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lens/steps.h"
+
 namespace aureole::lens {
 namespace {
 
@@ -18,46 +20,56 @@ Square product(const Square& l, const Square& r) {
 
 }  // namespace
 
-BlurMoments blur_of(const Tracer& tracer, const Bounces& ghost, const sources::Light& light,
-                    double x_mm, double y_mm) {
+BlurProbe::BlurProbe(const Lens& lens, double wavelength_nm)
+    : tracer_(lens, wavelength_nm), faces_(lens.faces().begin(), lens.faces().end()) {}
+
+BlurMoments BlurProbe::moments(const Bounces& ghost, const sources::Light& light, double x_mm,
+                               double y_mm) {
     constexpr double kSlope = 1e-5;
     constexpr double kShiftMm = 1e-4;
-    struct Landing {
-        double x = 0, y = 0, u = 0, v = 0;
-    };
-    bool arrived = true;
-    const auto land = [&](double tan_x, double tan_y, double x, double y) {
-        const TracedRay ray = tracer.trace(ghost, ray_from_light(tan_x, tan_y, x, y));
-        arrived = arrived && ray.fate == Fate::kArrived;
-        return Landing{ray.x_mm, ray.y_mm, ray.stop_x_mm, ray.stop_y_mm};
-    };
-    const auto jacobian = [](const Landing& at, const Landing& by_x, const Landing& by_y,
-                             double step) {
-        struct Both {
-            Square sensor, stop;
-        };
-        return Both{{(by_x.x - at.x) / step, (by_y.x - at.x) / step, (by_x.y - at.y) / step,
-                     (by_y.y - at.y) / step},
-                    {(by_x.u - at.u) / step, (by_y.u - at.u) / step, (by_x.v - at.v) / step,
-                     (by_y.v - at.v) / step}};
-    };
     const double tx = light.tan_x;
     const double ty = light.tan_y;
-    const Landing at = land(tx, ty, x_mm, y_mm);
-    const auto by_place = jacobian(at, land(tx, ty, x_mm + kShiftMm, y_mm),
-                                   land(tx, ty, x_mm, y_mm + kShiftMm), kShiftMm);
-    const auto by_slope = jacobian(at, land(tx + kSlope, ty, x_mm, y_mm),
-                                   land(tx, ty + kSlope, x_mm, y_mm), kSlope);
-    if (!arrived) return {};
-    // As the light moves, the ray through the same point of the stop enters elsewhere:
-    // dp = -(du/dp)^-1 du/ds ds.
-    Square move = by_slope.sensor;
-    const Square& u = by_place.stop;
-    const double det = u.a * u.d - u.b * u.c;
-    const double size = std::abs(u.a * u.d) + std::abs(u.b * u.c);
-    if (std::abs(det) > 1e-6 * size && size > 1e-12) {
-        const Square inverse = {u.d / det, -u.b / det, -u.c / det, u.a / det};
-        const Square back = product(by_place.sensor, product(inverse, by_slope.stop));
+    const Ray rays[] = {ray_from_light(tx, ty, x_mm, y_mm),
+                        ray_from_light(tx, ty, x_mm + kShiftMm, y_mm),
+                        ray_from_light(tx, ty, x_mm, y_mm + kShiftMm),
+                        ray_from_light(tx + kSlope, ty, x_mm, y_mm),
+                        ray_from_light(tx, ty + kSlope, x_mm, y_mm)};
+    for (std::size_t k = 0; k < 5; ++k) {
+        if (tracer_.trace(ghost, rays[k], &paths_[k]).fate != Fate::kArrived) return {};
+    }
+    // d(x, y) at a point of the paths by two of the rays.
+    const auto jacobian = [&](std::size_t at, std::size_t ray, double step) {
+        const Vector& here = paths_[0][at];
+        const Vector& by_x = paths_[ray][at];
+        const Vector& by_y = paths_[ray + 1][at];
+        return Square{(by_x[0] - here[0]) / step, (by_y[0] - here[0]) / step,
+                      (by_x[1] - here[1]) / step, (by_y[1] - here[1]) / step};
+    };
+    const std::size_t sensor = paths_[0].size() - 1;
+    Square move = jacobian(sensor, 3, kSlope);
+    // The aperture that limits the ghost is the one whose image on the entrance is smallest. As the
+    // light moves by ds, the ray through the same point of it enters elsewhere: dp = -a^-1 b ds,
+    // a = da/dp and b = da/ds there.
+    double largest = 0;
+    std::size_t limit = 0;
+    std::size_t at = 1;
+    visit_steps(static_cast<int>(faces_.size()), ghost, [&](const Step& step) {
+        const Square a = jacobian(at, 1, kShiftMm);
+        const double radius = faces_[static_cast<std::size_t>(step.face)].semi_aperture_mm;
+        const double reduction = std::abs(a.a * a.d - a.b * a.c) / (radius * radius);
+        if (reduction > largest) {
+            largest = reduction;
+            limit = at;
+        }
+        ++at;
+        return true;
+    });
+    if (largest > 0) {
+        const Square a = jacobian(limit, 1, kShiftMm);
+        const double det = a.a * a.d - a.b * a.c;
+        const Square inverse = {a.d / det, -a.b / det, -a.c / det, a.a / det};
+        const Square back = product(jacobian(sensor, 1, kShiftMm),
+                                    product(inverse, jacobian(limit, 3, kSlope)));
         move = {move.a - back.a, move.b - back.b, move.c - back.c, move.d - back.d};
     }
     const Square moments = {light.moment_xx, light.moment_xy, light.moment_xy, light.moment_yy};

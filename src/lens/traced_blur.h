@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "aureole/lens/lens.h"
 #include "aureole/lens/trace.h"
 #include "aureole/sources/light.h"
 
@@ -13,11 +14,23 @@ struct BlurMoments {
     double xx = 0, xy = 0, yy = 0;
 };
 
-// How a ghost moves on the sensor as its light moves: where light through the same point of the
-// stop lands, differentiated by the light's tangents at a ray that crosses z = 0 at (x, y); the
-// light's moments carried along. Zero if the ray does not arrive.
-BlurMoments blur_of(const Tracer& tracer, const Bounces& ghost, const sources::Light& light,
-                    double x_mm, double y_mm);
+// How the size of a light widens a ghost.
+class BlurProbe {
+  public:
+    BlurProbe(const Lens& lens, double wavelength_nm);
+
+    // How the ghost moves on the sensor as its light moves, differentiated by the light's tangents
+    // at a ray that crosses z = 0 at (x, y), and the light's moments carried along. It moves as the
+    // light does that passes through one point of the aperture that limits it. Zero if the ray does
+    // not arrive.
+    BlurMoments moments(const Bounces& ghost, const sources::Light& light, double x_mm,
+                        double y_mm);
+
+  private:
+    Tracer tracer_;
+    std::vector<Face> faces_;
+    std::vector<Vector> paths_[5];
+};
 
 // An evenly bright ellipse with given second moments as weights of pixels; they sum to 1.
 class BlurKernel {

@@ -1,8 +1,8 @@
 #include "lens/traced_ghosts.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -27,6 +27,9 @@ std::size_t meshes_at_once(int side) {
 // What is known of one ghost of the current light.
 struct GhostNow {
     GhostLight light;
+    // Of the light that the above is for; NaN: of none.
+    double tan_x = std::numeric_limits<double>::quiet_NaN();
+    double tan_y = std::numeric_limits<double>::quiet_NaN();
     int level = 0;
     BlurMoments blur;  // pixels of the level
     bool blurred = false;
@@ -49,11 +52,14 @@ struct TracedGhosts::Impl {
           ghosts(std::move(list)),
           bands(a_lens, ghosts, options.wavelengths),
           mask(an_iris, occluder, options.ghost_texture),
-          tracer(a_lens, bands.wavelength_nm(bands.middle())),
           // Canvases reach beyond the picture, coarse levels and blurs the most.
           sensor(picture_on_sensor(a_film, 0.05 * std::max(a_film.width, a_film.height))),
-          now(ghosts.size()) {
-        for (int k = 0; k < max_workers(); ++k) probes.emplace_back(bands);
+          now(ghosts.size()),
+          comparison(a_film, bands) {
+        for (int k = 0; k < max_workers(); ++k) {
+            probes.emplace_back(bands);
+            blur_probes.emplace_back(a_lens, bands.wavelength_nm(bands.middle()));
+        }
         for (GhostNow& ghost : now) {
             const auto count = static_cast<std::size_t>(options.wavelengths);
             ghost.light.weights.resize(count);
@@ -66,12 +72,15 @@ struct TracedGhosts::Impl {
         }
         paints.reserve(at_once);
         items.reserve(at_once);
-        comparison.emplace(a_lens, a_film, ghosts);
+        
     }
 
-    void prepare(const sources::Light& light, const GhostDraw& draw, const Canvas& canvas,
+    // Where rays of a ghost enter, unless that is known from the same light already.
+    void prepare(const sources::Light& light, int index, int worker);
+    // How it is drawn.
+    void arrange(const sources::Light& light, const GhostDraw& draw, const Canvas& canvas,
                  int worker);
-    void prepare_blur(const sources::Light& light, int index, const Canvas& canvas);
+    void arrange_blur(const sources::Light& light, int index, const Canvas& canvas, int worker);
     MeshJob job_for(const sources::Light& light, const Item& item, const Canvas& canvas,
                     std::vector<RayStep>& scratch) const;
     MeshPaint paint_for(const sources::Light& light, std::size_t item) const;
@@ -85,31 +94,37 @@ struct TracedGhosts::Impl {
     std::vector<Bounces> ghosts;
     TracedBands bands;
     TracedMask mask;
-    Tracer tracer;
     PlaneBox sensor;  // what the picture shows
 
     std::vector<GhostNow> now;
     std::vector<TracedBands::Probe> probes;  // by worker
+    std::vector<BlurProbe> blur_probes;      // by worker
     std::vector<TracedMesh> meshes;
     std::vector<std::vector<RayStep>> steps;  // by mesh
     std::vector<Item> items;                  // by mesh
     std::vector<MeshPaint> paints;
     BlurKernel kernel;
     std::optional<TracedCanvas> tiles;
-    std::optional<GhostCompare> comparison;
+    GhostCompare comparison;
     std::size_t rays = 0;
 };
 
-// Where its rays enter, and how its light blurs it.
-void TracedGhosts::Impl::prepare(const sources::Light& light, const GhostDraw& draw,
+void TracedGhosts::Impl::prepare(const sources::Light& light, int index, int worker) {
+    GhostNow& ghost = now[static_cast<std::size_t>(index)];
+    if (ghost.tan_x == light.tan_x && ghost.tan_y == light.tan_y) return;
+    bands.prepare(index, RayDirection(light), sensor, mask,
+                  probes[static_cast<std::size_t>(worker)], ghost.light);
+    ghost.tan_x = light.tan_x;
+    ghost.tan_y = light.tan_y;
+}
+
+void TracedGhosts::Impl::arrange(const sources::Light& light, const GhostDraw& draw,
                                  const Canvas& canvas, int worker) {
     GhostNow& ghost = of(draw);
-    bands.prepare(draw.ghost, RayDirection(light), sensor, mask,
-                  probes[static_cast<std::size_t>(worker)], ghost.light);
     ghost.level = std::clamp(draw.level, 0, canvas.levels() - 1);
     ghost.blurred = false;
     if (ghost.light.found.entrance.empty()) return;
-    if (light.moment_xx > 0 || light.moment_yy > 0) prepare_blur(light, draw.ghost, canvas);
+    if (light.moment_xx > 0 || light.moment_yy > 0) arrange_blur(light, draw.ghost, canvas, worker);
     // Below that, a blur or coarse pixels hide the bands.
     constexpr double kOutlinesPx = 3;
     const double apart_px = ghost.light.dispersion_mm / (film.mm_per_px * (1 << ghost.level));
@@ -117,12 +132,13 @@ void TracedGhosts::Impl::prepare(const sources::Light& light, const GhostDraw& d
     ghost.in_strata = apart_px > kOutlinesPx + hidden_px;
 }
 
-void TracedGhosts::Impl::prepare_blur(const sources::Light& light, int index,
-                                      const Canvas& canvas) {
+void TracedGhosts::Impl::arrange_blur(const sources::Light& light, int index,
+                                      const Canvas& canvas, int worker) {
     GhostNow& ghost = now[static_cast<std::size_t>(index)];
     const PlaneBox& entrance = ghost.light.found.entrance;
-    ghost.blur = blur_of(tracer, ghosts[static_cast<std::size_t>(index)], light,
-                         0.5 * (entrance.x0 + entrance.x1), 0.5 * (entrance.y0 + entrance.y1));
+    ghost.blur = blur_probes[static_cast<std::size_t>(worker)].moments(
+        ghosts[static_cast<std::size_t>(index)], light, 0.5 * (entrance.x0 + entrance.x1),
+        0.5 * (entrance.y0 + entrance.y1));
     const auto scale = [&](double by) {
         ghost.blur.xx *= by;
         ghost.blur.xy *= by;
@@ -203,8 +219,10 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
     Impl& m = *impl_;
     if (!m.tiles) m.tiles.emplace(canvas);
     m.rays = 0;
-    parallel_for(ghosts.size(),
-                 [&](std::size_t g, int worker) { m.prepare(light, ghosts[g], canvas, worker); });
+    parallel_for(ghosts.size(), [&](std::size_t g, int worker) {
+        m.prepare(light, ghosts[g].ghost, worker);
+        m.arrange(light, ghosts[g], canvas, worker);
+    });
     for (TracedBands::Probe& probe : m.probes) m.rays += probe.take_rays();
 
     // In batches: trace, then draw.
@@ -248,7 +266,12 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
 void TracedGhosts::compare(const sources::Light& light, std::span<const MatrixGhost> placements,
                            std::span<GhostComparison> comparisons) {
     Impl& m = *impl_;
-    m.comparison->compare(light, m.mask, placements, comparisons);
+    parallel_for(m.ghosts.size(), [&](std::size_t g, int worker) {
+        const int index = static_cast<int>(g);
+        m.prepare(light, index, worker);
+        comparisons[g] = m.comparison.compare(index, light, m.bands, m.now[g].light, m.mask,
+                                              placements[g], worker);
+    });
 }
 
 std::size_t TracedGhosts::rays() const noexcept { return impl_->rays; }
