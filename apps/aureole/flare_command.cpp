@@ -43,11 +43,10 @@ void FlareCommand::add_options(CLI::App& command) {
     settings.output.make_optional();
     command.add_option("--frames", frames, "Frames of a sequence: 1001-1240, 1-10x2, 1,5,9")
         ->type_name("RANGE");
-    one_of(command.add_option(
-               "--preset", preset,
-               "physical: ghosts in the picture's units, no gain; blog: without "
-               "absolute scale, as artists draw them (matrix, same-side pairs; scale with "
-               "--tint)"),
+    one_of(command.add_option("--preset", preset,
+                              "physical: ghosts in the picture's units, no gain; blog: as "
+                              "drawn by a game: faded polygons, one colour each (matrix, "
+                              "same-side pairs)"),
            {"physical", "blog"})
         ->capture_default_str();
     command.add_flag("--starburst", starburst,

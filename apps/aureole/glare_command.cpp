@@ -58,7 +58,7 @@ void GlareCommand::add_options(CLI::App& command) {
         one_of(command.add_option("--preset", preset,
                                   "physical: as measured; vivid (eye): what people say they see "
                                   "(corona contrast 2.5 to 4, streaks x1.5); blog (camera): ghosts "
-                                  "without absolute scale, as artists draw them"),
+                                  "as drawn by a game, faded polygons of one colour each"),
                {"physical", "vivid", "blog"});
     preset_option->capture_default_str();
     view.add_options(command, "60, or the lens's for a camera");

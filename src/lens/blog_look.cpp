@@ -113,8 +113,8 @@ BlogLook::BlogLook(const Lens& lens, const Iris& iris, const Film& film,
     const GhostMatrices image = ghost_matrices(lens, Bounces{}, kLineDNm);
     const auto at_stop = static_cast<std::size_t>(image.stop_crossings.front());
     entrance_pupil_mm_ = stop_height_mm_ / image.crossings[at_stop].matrix.x.a;
-    const double pixel = film.mm_per_px / lens.efl_mm();
-    pixel_solid_angle_sr_ = pixel * pixel;
+    const double unit = kImageCircleMm / lens.efl_mm();
+    unit_solid_angle_sr_ = unit * unit;
     for (const Bounces& bounces : ghosts) {
         const GhostMatrices matrices = ghost_matrices(lens, bounces, kLineDNm);
         Ghost ghost;
@@ -179,7 +179,7 @@ void BlogLook::place_one(const Ghost& blog, const sources::Light& light, MatrixG
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
         const double source =
-            static_cast<double>(light.radiance[c]) * light.solid_angle_sr / pixel_solid_angle_sr_;
+            static_cast<double>(light.radiance[c]) * light.solid_angle_sr / unit_solid_angle_sr_;
         const double radiance = source * intensity * blog.color[c];
         if (!std::isfinite(radiance) || radiance < 0 || area_px2 <= 0) {
             ghost = MatrixGhost();

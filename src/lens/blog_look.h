@@ -67,10 +67,10 @@ class BlogLook {
     BlogField field_;
     Film film_;
     std::vector<Ghost> ghosts_;
-    double stop_height_mm_ = 0;      // H_a
-    double entrance_height_mm_ = 0;  // H_e
-    double entrance_pupil_mm_ = 0;   // H_a / M_a00 of the image
-    double pixel_solid_angle_sr_ = 0;
+    double stop_height_mm_ = 0;       // H_a
+    double entrance_height_mm_ = 0;   // H_e
+    double entrance_pupil_mm_ = 0;    // H_a / M_a00 of the image
+    double unit_solid_angle_sr_ = 0;  // whose image in focus has the unit of area of the intensity
 };
 
 }  // namespace aureole::lens

@@ -157,9 +157,11 @@ TEST(BlogLook, GhostsAreThoseOfTheDocument) {
         double intensity = (h_e1 - h_e2) * (h_e1 - h_e2) / (4 * entrance_pupil * entrance_pupil);
         intensity /= 4 * radius * radius;
         for (std::size_t c = 0; c < 3; ++c) {
-            // A light of one pixel: its product with the pixel's solid angle is the radiance.
+            // The area of the light's image in focus, in squared radii of the image circle.
+            const double in_focus =
+                light.solid_angle_sr * lens.efl_mm() * lens.efl_mm() / (21.65 * 21.65);
             const double expected =
-                static_cast<double>(light.radiance[c]) * intensity *
+                static_cast<double>(light.radiance[c]) * in_focus * intensity *
                 document_color(lens, scene.list[g], BlogLook::kWavelengthsNm[c]);
             EXPECT_NEAR(static_cast<double>(ghost.radiance[c]) / expected, 1, 1e-4)
                 << g << " colour " << c;

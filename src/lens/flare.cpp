@@ -83,7 +83,7 @@ struct Flare::Impl {
           canvas(film.width, film.height),
           estimates(list.size()),
           plans(list.size()),
-          differences(list.size(), -1.0F) {
+          comparisons(list.size()) {
         if (options.method != GhostMethod::kMatrix) {
             traced.emplace(lens, iris, film, options, list, occluder);
         }
@@ -124,7 +124,7 @@ struct Flare::Impl {
     Canvas canvas;
     std::vector<GhostEstimate> estimates;
     std::vector<GhostPlan> plans;
-    std::vector<float> differences;
+    std::vector<GhostComparison> comparisons;
     std::vector<GhostDraw> by_matrix, by_rays;
     FlareReport report;
 };
@@ -144,9 +144,14 @@ void Flare::Impl::estimate(const sources::Light& light) {
         estimate.radius_px = ghost.radius_px;
         estimate.difference = -1;
     }
-    if (options.method == GhostMethod::kHybrid) {
-        traced->compare(light, placements, differences);
-        for (std::size_t i = 0; i < list.size(); ++i) estimates[i].difference = differences[i];
+    if (!traced) return;
+    // Linear optics may be far off in energy too, and block what exact rays find open.
+    traced->compare(light, placements, comparisons);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const auto weight = gain(i);
+        const double mean_gain = (weight[0] + weight[1] + weight[2]) / 3.0;
+        estimates[i].energy = comparisons[i].energy * mean_gain;
+        estimates[i].difference = comparisons[i].difference * mean_gain;
     }
 }
 
@@ -175,8 +180,16 @@ void Flare::Impl::add_to_report(const PlanTotals& totals, double energy) {
         const bool first = ghost.bounces.direct();
         if (!first && estimates[i].energy <= ghost.energy) continue;
         const MatrixGhost& place = placements[i];
-        ghost = {list[i],        plans[i].drawn,  estimates[i].energy,   place.center_x,
-                 place.center_y, place.radius_px, estimates[i].radiance, estimates[i].difference};
+        ghost = {list[i],
+                 plans[i].drawn,
+                 estimates[i].energy,
+                 place.center_x,
+                 place.center_y,
+                 place.radius_px,
+                 estimates[i].radiance,
+                 estimates[i].difference < 0 || estimates[i].energy <= 0
+                     ? -1
+                     : estimates[i].difference / estimates[i].energy};
     }
     report.energy_dropped += totals.energy_dropped * energy;
     report.coarse_displaced += totals.coarse_displaced * energy;

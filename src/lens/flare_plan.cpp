@@ -108,7 +108,7 @@ PlanTotals plan_ghosts(std::span<const GhostEstimate> ghosts, const FlareOptions
     if (options.method == GhostMethod::kMatrix) return totals;
     double budget = options.method == GhostMethod::kHybrid ? options.hybrid_tolerance * energy : 0;
     const auto error = [&](std::size_t i) {
-        return ghosts[i].energy * (ghosts[i].difference < 0 ? 2 : ghosts[i].difference);
+        return ghosts[i].difference < 0 ? 2 * ghosts[i].energy : ghosts[i].difference;
     };
     for (const std::size_t i : sorted_open(plans, error)) {
         if (options.method == GhostMethod::kTraced || error(i) > budget) {

@@ -14,7 +14,7 @@ struct GhostEstimate {
     double energy = 0;    // sum over the picture's pixels and RGB, gains included; 0: blocked
     double radiance = 0;  // mean of RGB where nothing is clipped
     double radius_px = 0;
-    // Of matrix against traced: sum of absolute differences over the energy; < 0: not known.
+    // Sum of |matrix - traced| over the same pixels; < 0: not known.
     double difference = -1;
     bool enabled = true;
 };

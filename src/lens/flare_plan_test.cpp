@@ -19,7 +19,7 @@ std::vector<GhostEstimate> random_ghosts(int count) {
         ghost.energy = random.log_uniform(1e-6, 1);
         ghost.radius_px = random.log_uniform(2, 3000);
         ghost.radiance = ghost.energy / (ghost.radius_px * ghost.radius_px);
-        ghost.difference = random.log_uniform(1e-4, 2);
+        ghost.difference = ghost.energy * random.log_uniform(1e-4, 2);
     }
     return ghosts;
 }
@@ -126,7 +126,7 @@ TEST(FlarePlan, HybridTracesWhatDiffers) {
     for (std::size_t i = 0; i < plans.size(); ++i) {
         if (plans[i].drawn != Drawn::kMatrix) continue;
         ++matrix;
-        error += ghosts[i].energy * ghosts[i].difference;
+        error += ghosts[i].difference;
     }
     EXPECT_LE(error, options.hybrid_tolerance * total);
     EXPECT_GT(matrix, 10);

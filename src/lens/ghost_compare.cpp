@@ -57,26 +57,33 @@ GhostCompare::GhostCompare(const Lens& lens, const Film& film, std::span<const B
     for (int k = 0; k < max_workers(); ++k) work_.emplace_back(bands_);
 }
 
-float GhostCompare::difference_of(int ghost, const sources::Light& light, const TracedMask& mask,
-                                  const MatrixGhost& placement, Work& work) const {
+GhostComparison GhostCompare::comparison_of(int ghost, const sources::Light& light,
+                                            const TracedMask& mask, const MatrixGhost& placement,
+                                            Work& work) const {
     const Iris& iris = mask.iris();
     const RayDirection direction(light);
     bands_.prepare(ghost, direction, picture_on_sensor(film_, 0), mask, work.probe, work.ghost);
     const EntranceFound& found = work.ghost.found;
     const bool linear = placement.u_per_px != 0 && placement.v_per_px != 0;
-    if (found.entrance.empty()) return linear ? 2.0F : 0.0F;
-    if (!linear) return 2;
+    const bool traced = !found.entrance.empty();
+    if (!traced && !linear) return {};
 
     // Around both, in pixels; the sensor's x runs against the picture's.
-    PlaneBox box = {film_.px(found.sensor.x1), film_.px(found.sensor.x0),
-                    film_.py(found.sensor.y0), film_.py(found.sensor.y1)};
-    const double reach_x = iris.outer_radius() / std::abs(placement.u_per_px) + 1;
-    const double reach_y = iris.outer_radius() / std::abs(placement.v_per_px) + 1;
-    box = box.around({placement.center_x - reach_x, placement.center_x + reach_x,
-                      placement.center_y - reach_y, placement.center_y + reach_y});
+    PlaneBox box;
+    if (traced) {
+        box = {film_.px(found.sensor.x1), film_.px(found.sensor.x0), film_.py(found.sensor.y0),
+               film_.py(found.sensor.y1)};
+    }
+    if (linear) {
+        const double reach_x = iris.outer_radius() / std::abs(placement.u_per_px) + 1;
+        const double reach_y = iris.outer_radius() / std::abs(placement.v_per_px) + 1;
+        const PlaneBox placed = {placement.center_x - reach_x, placement.center_x + reach_x,
+                                 placement.center_y - reach_y, placement.center_y + reach_y};
+        box = traced ? box.around(placed) : placed;
+    }
     box = {std::max(box.x0, 0.0), std::min(box.x1, static_cast<double>(film_.width)),
            std::max(box.y0, 0.0), std::min(box.y1, static_cast<double>(film_.height))};
-    if (box.empty()) return 0;
+    if (box.empty()) return {};
     Bins bins;
     bins.x0 = box.x0;
     bins.y0 = box.y0;
@@ -86,7 +93,8 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
     };
     bins.columns = count(box.x1 - box.x0);
     bins.rows = count(box.y1 - box.y0);
-    draw_placement(placement, iris, bins, work.coverage.data());
+    std::fill(work.coverage.begin(), work.coverage.end(), 0.0F);
+    if (linear) draw_placement(placement, iris, bins, work.coverage.data());
 
     // The bins as a picture.
     Film film = film_;
@@ -103,16 +111,14 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
                 .iris = mask.field(),
                 .inner_radius = mask.inner_radius(),
                 .outer_radius = mask.outer_radius(),
-                .all_masked = mask.piece_mask().extra != nullptr,
+                .all_masked = mask.mesh_mask().extra != nullptr,
                 .film = &film,
                 .x1 = static_cast<float>(film.width),
                 .y1 = static_cast<float>(film.height),
                 .power_per_mm2 = light.solid_angle_sr * direction.z /
                                  (film.irradiance_per_radiance * film.mm_per_px * film.mm_per_px)};
-    MeshTile tile{.sums = work.sums.data(),
-                  .stride = bins.columns + 2,
-                  .x1 = bins.columns,
-                  .y1 = bins.rows};
+    MeshTile tile{
+        .sums = work.sums.data(), .stride = bins.columns + 2, .x1 = bins.columns, .y1 = bins.rows};
     const auto bin_count = static_cast<std::size_t>(bins.columns * bins.rows);
     for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t k = 0; k < bin_count; ++k) {
@@ -120,11 +126,11 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
         }
     }
     double energy = 0;
-    for (int band = 0; band < kBands; ++band) {
+    for (int band = 0; traced && band < kBands; ++band) {
         job.way = bands_.way(ghost, band, work.steps);
         work.mesh.build(job);
         std::fill(work.sums.begin(), work.sums.end(), 0.0F);
-        work.mesh.draw(mask.piece_mask(), tile);
+        work.mesh.draw(mask.mesh_mask(), tile);
         for (std::size_t c = 0; c < 3; ++c) {
             const float weight =
                 work.ghost.weights[static_cast<std::size_t>(band)][c] * light.radiance[c];
@@ -140,15 +146,17 @@ float GhostCompare::difference_of(int ghost, const sources::Light& light, const 
     }
     double difference = 0;
     for (std::size_t k = 0; k < 3 * bin_count; ++k) difference += std::abs(work.difference[k]);
-    if (!(energy > 0)) return difference > 0 ? 2.0F : 0.0F;
-    return static_cast<float>(std::min(2.0, difference / energy));
+    const double area = bins.size * bins.size;
+    return {static_cast<float>(std::max(0.0, energy * area)),
+            static_cast<float>(difference * area)};
 }
 
 void GhostCompare::compare(const sources::Light& light, const TracedMask& mask,
-                           std::span<const MatrixGhost> placements, std::span<float> difference) {
+                           std::span<const MatrixGhost> placements,
+                           std::span<GhostComparison> comparisons) {
     parallel_for(placements.size(), [&](std::size_t g, int worker) {
-        difference[g] = difference_of(static_cast<int>(g), light, mask, placements[g],
-                                      work_[static_cast<std::size_t>(worker)]);
+        comparisons[g] = comparison_of(static_cast<int>(g), light, mask, placements[g],
+                                       work_[static_cast<std::size_t>(worker)]);
     });
 }
 

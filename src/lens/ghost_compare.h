@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lens/film.h"
+#include "lens/ghost_draw.h"
 #include "lens/matrix_ghosts.h"
 #include "lens/traced_bands.h"
 #include "lens/traced_mask.h"
@@ -19,9 +20,9 @@ class GhostCompare {
   public:
     GhostCompare(const Lens& lens, const Film& film, std::span<const Bounces> ghosts);
 
-    // See TracedGhosts::compare(). By several threads.
+    // Of every ghost; `placements` are those of the same light. By several threads.
     void compare(const sources::Light& light, const TracedMask& mask,
-                 std::span<const MatrixGhost> placements, std::span<float> difference);
+                 std::span<const MatrixGhost> placements, std::span<GhostComparison> comparisons);
 
   private:
     static constexpr int kBins = 40;
@@ -38,8 +39,8 @@ class GhostCompare {
         std::vector<float> sums, coverage, difference;
     };
 
-    float difference_of(int ghost, const sources::Light& light, const TracedMask& mask,
-                        const MatrixGhost& placement, Work& work) const;
+    GhostComparison comparison_of(int ghost, const sources::Light& light, const TracedMask& mask,
+                                  const MatrixGhost& placement, Work& work) const;
 
     Film film_;
     TracedBands bands_;

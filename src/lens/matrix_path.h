@@ -13,7 +13,7 @@
 
 #include "aureole/lens/ghosts.h"
 #include "aureole/lens/iris.h"
-#include "film.h"
+#include "lens/film.h"
 
 namespace aureole::lens {
 

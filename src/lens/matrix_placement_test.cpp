@@ -224,9 +224,8 @@ TEST(MatrixGhosts, CylindersClipByEllipses) {
 // Rays so near the axis that aberrations are below 1e-6.
 TEST(MatrixGhosts, PositionsAreThoseOfExactRaysNearTheAxis) {
     constexpr double kTan = 1e-6;
-    for (const Lens& lens :
-         {Lens(shipped_lens("heliar")), Lens(shipped_lens("nikon-28-75")),
-          Lens(shipped_lens("canon-70-200"), {.position = "mid"}), anamorphic_lens()}) {
+    for (const Lens& lens : {Lens(shipped_lens("heliar")), Lens(shipped_lens("nikon-28-75")),
+                             Lens(shipped_lens("tessar")), anamorphic_lens()}) {
         MatrixScene scene(lens, test_view(lens, 1920, 1080));
         scene.ghosts.place(test_light(scene.view, kTan, -2 * kTan));
         const Tracer tracer(lens, kLineDNm);

@@ -1,8 +1,6 @@
 // What the tests of matrix ghosts share.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <string>
 #include <vector>

@@ -14,15 +14,17 @@ HWY_BEFORE_NAMESPACE();
 namespace aureole::lens::HWY_NAMESPACE {
 namespace {
 
-// Cells whose cubics may be farther off than this (pixels) are refined, ...
+// Cells are refined whose cubics may be farther off than this (pixels), or that are larger than
+// that, if their area also changes by more than this factor between corners: near folds. Elsewhere
+// an error of position does not show.
 constexpr float kRough = 0.25F;
-// ... and those that are larger, since most of what they are is elsewhere.
 constexpr float kLargestCell = 64;
+constexpr float kRoughStretch = 2;
 // Of a cell that is drawn by pieces; beyond, they no longer touch each other.
 constexpr float kMostPieces = 128;
 // Facets: cells of at least so many square pixels at all corners, which differ at most by so much.
 constexpr float kSmallestFacet = 4;
-constexpr float kMostStretch = 1.6F;
+constexpr float kMostStretch = 1.35F;
 
 HWY_INLINE V third_difference(const float* from, std::ptrdiff_t step) {
     const V outer = hn::Sub(load(from + 2 * step), load(from - step));
@@ -53,21 +55,58 @@ HWY_INLINE M meets(const Reach& reach, float low, float high) {
 }
 
 // Later ones win.
-void store_states(M away, M open, M masked, M refined, int count, std::uint8_t* to) {
+void store_states(M open, M masked, M refined, int count, std::uint8_t* to) {
     const D d;
     HWY_ALIGN float kinds[kLanes];
-    V kind = hn::IfThenElseZero(away, set(kCellAway));
-    kind = hn::IfThenElse(open, set(kCellOpen), kind);
+    V kind = hn::IfThenElseZero(open, set(kCellOpen));
     kind = hn::IfThenElse(masked, set(kCellMasked), kind);
     kind = hn::IfThenElse(refined, set(kCellRefined), kind);
     hn::Store(kind, d, kinds);
-    for (int k = 0; k < count; ++k) to[k] = static_cast<std::uint8_t>(kinds[k]);
+    for (int k = 0; k < count; ++k) {
+        if (to[k] != kCellRefined) to[k] = static_cast<std::uint8_t>(kinds[k]);
+    }
 }
 
-void classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* state) {
+// Signed area that a cell would have if it were as around the vertex.
+HWY_INLINE V area_around(const Mesh& mesh, std::ptrdiff_t at) {
+    const std::ptrdiff_t s = mesh.stride;
+    const auto change = [&](const float* field, std::ptrdiff_t step) {
+        return hn::Sub(load(field + at + step), load(field + at - step));
+    };
+    const V cross = hn::MulSub(change(mesh.x, 1), change(mesh.y, s),
+                               hn::Mul(change(mesh.y, 1), change(mesh.x, s)));
+    return hn::Mul(set(0.25F), cross);
+}
+
+// Is an area, which has these bounds over cells, of one sign and much the same?
+HWY_INLINE M is_even(V low, V high, float least, float most_ratio) {
+    const auto positive = [&](V from, V to) {
+        return hn::And(hn::Ge(from, set(least)), hn::Le(to, hn::Mul(from, set(most_ratio))));
+    };
+    return hn::Or(positive(low, high), positive(hn::Neg(high), hn::Neg(low)));
+}
+
+// At the corners of cells.
+HWY_INLINE M is_nearly_even(const Mesh& mesh, std::ptrdiff_t at) {
+    const V a = area_around(mesh, at);
+    const V b = area_around(mesh, at + 1);
+    const V c = area_around(mesh, at + mesh.stride);
+    const V e = area_around(mesh, at + mesh.stride + 1);
+    return is_even(hn::Min(hn::Min(a, b), hn::Min(c, e)), hn::Max(hn::Max(a, b), hn::Max(c, e)),
+                   0, kRoughStretch);
+}
+
+void classify(const Mesh& mesh, const ClassifyOptions& options) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
-    std::fill(state, state + static_cast<std::ptrdiff_t>(mesh.columns) * mesh.rows, kCellDead);
+    const std::ptrdiff_t cells = static_cast<std::ptrdiff_t>(mesh.columns) * mesh.rows;
+    if (options.upsampled) {
+        for (std::ptrdiff_t k = 0; k < cells; ++k) {
+            if (mesh.state[k] != kCellRefined) mesh.state[k] = kCellDead;
+        }
+    } else {
+        std::fill(mesh.state, mesh.state + cells, kCellDead);
+    }
     for (int row = 1; row + 2 < mesh.rows; ++row) {
         for (int column = 1; column + 2 < mesh.columns; column += kLanes) {
             const std::ptrdiff_t at = row * s + column;
@@ -95,44 +134,29 @@ void classify(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* st
             const M drawn =
                 hn::And(passes, hn::And(meets(Reach(xs), options.x0, options.x1),
                                         meets(Reach(ys), options.y0, options.y1)));
-            if (hn::AllFalse(d, hn::Or(passes, broken))) continue;
-            const V off = hn::Max(cubic_error(mesh.x + at, s), cubic_error(mesh.y + at, s));
-            const V size = hn::Max(hn::Sub(xs.high, xs.low), hn::Sub(ys.high, ys.low));
-            const M rough = hn::Or(hn::Gt(off, set(kRough)), hn::Gt(size, set(kLargestCell)));
+            if (hn::AllFalse(d, hn::Or(drawn, broken))) continue;
+            M refined = hn::FirstN(d, 0);
+            if (!options.upsampled) {
+                const V off = hn::Max(cubic_error(mesh.x + at, s), cubic_error(mesh.y + at, s));
+                const V size = hn::Max(hn::Sub(xs.high, xs.low), hn::Sub(ys.high, ys.low));
+                const M rough = hn::Or(hn::Gt(off, set(kRough)), hn::Gt(size, set(kLargestCell)));
+                refined = hn::Or(hn::AndNot(is_nearly_even(mesh, at), hn::And(drawn, rough)),
+                                 broken);
+            }
             M cut = hn::Or(hn::Gt(hn::Add(clip.high, spread), set(1)),
                            hn::Gt(far, set(options.inner_radius)));
-            if (options.all_masked) cut = passes;
-            store_states(hn::AndNot(hn::Or(cut, rough), passes), drawn, hn::And(drawn, cut), hn::Or(hn::And(drawn, rough), broken),
+            if (options.all_masked) cut = drawn;
+            store_states(drawn, hn::And(drawn, cut), refined,
                          std::min(kLanes, mesh.columns - 2 - column),
-                         state + static_cast<std::ptrdiff_t>(row) * mesh.columns + column);
+                         mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns + column);
         }
     }
 }
 
-// Signed area that a cell would have if it were as around the vertex.
-HWY_INLINE V area_around(const Mesh& mesh, std::ptrdiff_t at) {
-    const std::ptrdiff_t s = mesh.stride;
-    const auto change = [&](const float* field, std::ptrdiff_t step) {
-        return hn::Sub(load(field + at + step), load(field + at - step));
-    };
-    const V cross = hn::MulSub(change(mesh.x, 1), change(mesh.y, s),
-                               hn::Mul(change(mesh.y, 1), change(mesh.x, s)));
-    return hn::Mul(set(0.25F), cross);
-}
-
-// The largest change of a field along cells: of its parabola, which at a fold goes out and back.
-HWY_INLINE V change_along_side(const float* from, std::ptrdiff_t step) {
-    const V a = load(from);
-    const V b = load(from + step);
-    const V bend = hn::Sub(hn::Add(load(from - step), load(from + 2 * step)), hn::Add(a, b));
-    return hn::MulAdd(set(0.25F), hn::Abs(bend), hn::Abs(hn::Sub(b, a)));
-}
-HWY_INLINE V change_along(const float* from, std::ptrdiff_t step, std::ptrdiff_t beside) {
-    return hn::Max(change_along_side(from, step), change_along_side(from + beside, step));
-}
-
-// Vertices where all four cells are fit for facets; area[] by vertex is that around it.
-void weigh_facets(const Mesh& mesh, const std::uint8_t* state, float* area, float* fit) {
+// Weights of vertices: 1 where all four cells are fit for facets, whether light passes or not, so
+// that no aperture's edge is a border between the two ways of drawing. area[] by vertex receives
+// that around it; fit[] is scratch.
+void weigh_facets(const Mesh& mesh, float* area, float* fit) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
     for (int row = 1; row + 1 < mesh.rows; ++row) {
@@ -143,15 +167,17 @@ void weigh_facets(const Mesh& mesh, const std::uint8_t* state, float* area, floa
     }
     std::fill(fit, fit + s * mesh.rows, 0.0F);
     for (int row = 1; row + 2 < mesh.rows; ++row) {
-        const std::uint8_t* states = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        const std::uint8_t* states = mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        for (int column = 1; column + 2 < mesh.columns; column += kLanes) {
+            const std::ptrdiff_t at = row * s + column;
+            const CellBounds areas(area + at, s);
+            const M fits = hn::And(is_even(areas.low, areas.high, kSmallestFacet, kMostStretch),
+                                   hn::Lt(CellBounds(mesh.clip + at, s).high, set(kLostRay)));
+            hn::StoreU(hn::IfThenElseZero(hn::And(fits, cells_from(mesh, column)), set(1)), d,
+                       fit + at);
+        }
         for (int column = 1; column + 2 < mesh.columns; ++column) {
-            if (states[column] != kCellOpen && states[column] != kCellAway) continue;
-            const float* corner = area + row * s + column;
-            const auto [low, high] = std::minmax({corner[0], corner[1], corner[s], corner[s + 1]});
-            const bool even = low >= kSmallestFacet ? high <= kMostStretch * low
-                                                    : high <= -kSmallestFacet &&
-                                                          low >= kMostStretch * high;
-            if (even) fit[row * s + column] = 1;
+            if (states[column] == kCellRefined) fit[row * s + column] = 0;
         }
     }
     for (int row = 1; row + 1 < mesh.rows; ++row) {
@@ -164,12 +190,12 @@ void weigh_facets(const Mesh& mesh, const std::uint8_t* state, float* area, floa
     }
 }
 
-int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
+int divide(const Mesh& mesh, MeshGroup* groups) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
     std::fill(mesh.smooth, mesh.smooth + s * mesh.rows, 0.0F);
     std::fill(mesh.radiance, mesh.radiance + s * mesh.rows, 0.0F);
-    weigh_facets(mesh, state, mesh.radiance, mesh.share);
+    weigh_facets(mesh, mesh.radiance, mesh.share);
 
     // Radiance of facets, and what makes their energy that of the cells.
     V wanted = hn::Zero(d);
@@ -198,7 +224,7 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
     };
     int count = 0;
     for (int row = 1; row + 2 < mesh.rows; ++row) {
-        const std::uint8_t* states = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        const std::uint8_t* states = mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
         for (int column = 1; column + 2 < mesh.columns; column += kGroup) {
             MeshGroup pieces;
             pieces.row = static_cast<std::int16_t>(row);
@@ -235,14 +261,14 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
                     any_pieces = true;
                     const auto largest = [&](std::ptrdiff_t step, std::ptrdiff_t beside) {
                         return hn::IfThenElseZero(
-                            pieced, hn::Max(change_along(mesh.x + at, step, beside),
-                                            change_along(mesh.y + at, step, beside)));
+                            pieced, hn::Max(largest_changes(mesh.x + at, step, beside),
+                                            largest_changes(mesh.y + at, step, beside)));
                     };
                     along = hn::Max(along, largest(1, s));
                     across = hn::Max(across, largest(s, 1));
-                    if (!hn::AllFalse(d, hn::And(pieced, hn::Eq(kind, set(kCellMasked))))) {
-                        pieces.masked = true;
-                    }
+                }
+                if (!hn::AllFalse(d, hn::Eq(kind, set(kCellMasked)))) {
+                    facets.masked = pieces.masked = true;
                 }
                 const Reach x(CellBounds(mesh.x + at, s));
                 const Reach y(CellBounds(mesh.y + at, s));
@@ -259,8 +285,7 @@ int divide(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups) {
             if (any_facets) groups[count++] = facets;
             if (any_pieces) {
                 const auto parts = [](V change) {
-                    return static_cast<std::int16_t>(
-                        std::clamp(std::ceil(1.4F * highest(change)), 1.0F, kMostPieces));
+                    return static_cast<std::int16_t>(pieces_for(highest(change), kMostPieces));
                 };
                 pieces.pieces_i = parts(along);
                 pieces.pieces_j = parts(across);

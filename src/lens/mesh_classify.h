@@ -10,15 +10,17 @@ struct ClassifyOptions {
     float outer_radius = 1;   // beyond it, closed
     bool all_masked = false;  // something other than apertures may be anywhere
     float x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // of the level that can be drawn on, pixels
+    // The mesh is upsampled: states hold those of the cells before. None is refined but the parts of
+    // those that were.
+    bool upsampled = false;
 };
 
 struct MeshClassifier {
-    // Of a mesh whose x, y, u, v, clip and power are filled: the state of each cell (columns x
-    // rows).
-    void (*classify)(const Mesh& mesh, const ClassifyOptions& options, std::uint8_t* state);
-    // Weights, radiance and shares from states (those still kCellRefined count as not drawn), and
-    // the groups to draw, at most 2 * rows * (columns / kGroup + 1). Returns their number.
-    int (*divide)(const Mesh& mesh, const std::uint8_t* state, MeshGroup* groups);
+    // Mesh::state from x, y, u, v, clip.
+    void (*classify)(const Mesh& mesh, const ClassifyOptions& options);
+    // Weights, radiance and shares from power and states (those still kCellRefined are not drawn),
+    // and the groups to draw, at most 2 * rows * (columns / kGroup + 1). Returns their number.
+    int (*divide)(const Mesh& mesh, MeshGroup* groups);
 };
 
 const MeshClassifier& mesh_classifier();

@@ -8,8 +8,8 @@
 #define HWY_TARGET_INCLUDE "lens/mesh_pieces.cpp"
 #include <hwy/foreach_target.h>
 // Must come after foreach_target.h.
+#include "lens/mesh_mask-inl.h"
 #include "lens/mesh_vectors-inl.h"
-#include "lens/ray_iris-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aureole::lens::HWY_NAMESPACE {
@@ -124,15 +124,7 @@ HWY_INLINE bool interpolate_line(const Mesh& mesh, const MeshGroup& group, float
     return true;
 }
 
-// How much of a piece is inside, from a distance that is 1 on the edge and its change over the
-// piece in both directions.
-HWY_INLINE V inside(V distance, V change_i, V change_j) {
-    const V width = hn::Max(hn::Add(hn::Abs(change_i), hn::Abs(change_j)), set(1e-6F));
-    const V covered = hn::Add(hn::Div(hn::Sub(set(1), distance), width), set(0.5F));
-    return hn::Min(hn::Max(covered, hn::Zero(D())), set(1));
-}
-
-HWY_INLINE V light_through(const PieceMask& mask, const Mesh& mesh, const MeshGroup& group,
+HWY_INLINE V light_through(const MeshMask& mask, const Mesh& mesh, const MeshGroup& group,
                            const Line& line, int lane, float t, float tj) {
     const D d;
     const float step_i = 1 / static_cast<float>(group.pieces_i);
@@ -140,46 +132,17 @@ HWY_INLINE V light_through(const PieceMask& mask, const Mesh& mesh, const MeshGr
     const auto change = [&](const float* from) {
         return hn::Mul(set(step_i), hn::Sub(load(from + lane + 2), load(from + lane + 1)));
     };
-    const V u = value(line.u);
-    const V v = value(line.v);
-    const V ui = change(line.u);
-    const V vi = change(line.v);
-    const V uj = value(line.uj);
-    const V vj = value(line.vj);
-    V light = inside(value(line.clip), change(line.clip), value(line.clipj));
-    if (!mask.open) {
-        const V distance = iris_distance(d, mask.iris, u, v);
-        const V beside_i = iris_distance(d, mask.iris, hn::Add(u, ui), hn::Add(v, vi));
-        const V beside_j = iris_distance(d, mask.iris, hn::Add(u, uj), hn::Add(v, vj));
-        light = hn::Mul(
-            light, inside(distance, hn::Sub(beside_i, distance), hn::Sub(beside_j, distance)));
-    }
-    if (mask.extra) {
-        HWY_ALIGN float us[kLanes];
-        HWY_ALIGN float vs[kLanes];
-        HWY_ALIGN float widths[kLanes];
-        HWY_ALIGN float xs[kLanes];
-        HWY_ALIGN float ys[kLanes];
-        HWY_ALIGN float lights[kLanes];
-        hn::Store(u, d, us);
-        hn::Store(v, d, vs);
-        // The side of a square as large as the piece is in the iris.
-        const V area = hn::Abs(hn::MulSub(ui, vj, hn::Mul(uj, vi)));
-        hn::Store(hn::Sqrt(area), d, widths);
-        const V column = hn::Iota(d, static_cast<float>(group.column + lane) + t);
-        hn::Store(hn::MulAdd(column, set(mesh.entrance_step_x), set(mesh.entrance_x)), d, xs);
-        hn::Store(set(mesh.entrance_y + (static_cast<float>(group.row) + tj) *
-                                            mesh.entrance_step_y),
-                  d, ys);
-        hn::Store(light, d, lights);
-        const float pieces = static_cast<float>(group.pieces_i) *
-                             static_cast<float>(group.pieces_j);
-        mask.extra(mask.context, us, vs, widths, xs, ys,
-                   std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y / pieces), kLanes,
-                   lights);
-        light = hn::Load(d, lights);
-    }
-    return light;
+    MaskPlace at;
+    at.u = {value(line.u), change(line.u), value(line.uj)};
+    at.v = {value(line.v), change(line.v), value(line.vj)};
+    at.clip = {value(line.clip), change(line.clip), value(line.clipj)};
+    const V column = hn::Iota(d, static_cast<float>(group.column + lane) + t);
+    at.entrance_x = hn::MulAdd(column, set(mesh.entrance_step_x), set(mesh.entrance_x));
+    at.entrance_y =
+        set(mesh.entrance_y + (static_cast<float>(group.row) + tj) * mesh.entrance_step_y);
+    const float pieces = static_cast<float>(group.pieces_i) * static_cast<float>(group.pieces_j);
+    at.entrance_width = std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y / pieces);
+    return light_at(mask, at);
 }
 
 // The weight of the facets at (t, tj) of cells: linear over the same triangles.
@@ -235,19 +198,28 @@ HWY_INLINE void scatter(const MeshTile& tile, const Overlap& x, const Overlap& y
     const auto row = hn::ConvertTo(di, hn::Sub(y.first, set(static_cast<float>(tile.y0 - 1))));
     const auto at =
         hn::Add(hn::Mul(row, hn::Set(di, static_cast<std::int32_t>(tile.stride))), column);
-    HWY_ALIGN float parts[4][2 * kGroup];
+    // Two pixels of a row at a time.
+    HWY_ALIGN float pairs[2][4 * kGroup];
     HWY_ALIGN std::int32_t offset[2 * kGroup];
-    const V all[4] = {upper_left, hn::Sub(upper, upper_left), lower_left,
-                      hn::Sub(lower, lower_left)};
-    for (int k = 0; k < 4; ++k) hn::StoreU(hn::Compress(all[k], kept), d, parts[k]);
+    const auto store_pairs = [&](V left, V both, float* to) {
+        left = hn::Compress(left, kept);
+        hn::StoreInterleaved2(left, hn::Sub(hn::Compress(both, kept), left), d, to);
+    };
+    store_pairs(upper_left, upper, pairs[0]);
+    store_pairs(lower_left, lower, pairs[1]);
     hn::StoreU(hn::Compress(at, hn::RebindMask(di, kept)), di, offset);
+    const hn::CappedTag<float, 2> d2;
     for (std::size_t k = 0; k < count; ++k) {
         float* to = tile.sums + offset[k];
-        to[0] += parts[0][k];
-        to[1] += parts[1][k];
-        to += tile.stride;
-        to[0] += parts[2][k];
-        to[1] += parts[3][k];
+        for (int row_pair = 0; row_pair < 2; ++row_pair, to += tile.stride) {
+            if constexpr (hn::MaxLanes(d2) == 2) {
+                const auto pair = hn::Load(d2, pairs[row_pair] + 2 * k);
+                hn::StoreU(hn::Add(hn::LoadU(d2, to), pair), d2, to);
+            } else {
+                to[0] += pairs[row_pair][2 * k];
+                to[1] += pairs[row_pair][2 * k + 1];
+            }
+        }
     }
 }
 
@@ -257,10 +229,12 @@ HWY_INLINE V width_of(V change_i, V change_j) {
     return hn::Min(hn::Max(width, set(1e-3F)), set(1));
 }
 
-void draw(const Mesh& mesh, const MeshGroup& group, const PieceMask& mask, const MeshTile& tile) {
+// Cells of few pieces: a lane for each cell, one piece of each at a time.
+void draw_cells(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
+                const MeshTile& tile) {
     const D d;
     Line line;
-    const bool masked = group.masked || mask.extra != nullptr;
+    const bool masked = group.masked;
     const float step_i = 1 / static_cast<float>(group.pieces_i);
     const float step_j = 1 / static_cast<float>(group.pieces_j);
     const float* shares = mesh.share + group.row * mesh.stride + group.column;
@@ -301,6 +275,161 @@ void draw(const Mesh& mesh, const MeshGroup& group, const PieceMask& mask, const
     }
 }
 
+// Weights of the four vertices before and after places t in [0, 1], and their derivatives.
+struct Cubics {
+    V value[4];
+    V slope[4];
+    explicit Cubics(V t) {
+        const V half = set(0.5F);
+        const V t2 = hn::Mul(t, t);
+        const V rest = hn::Sub(set(1), t);
+        const V rest2 = hn::Mul(rest, rest);
+        // -t (1 - t)^2 / 2 and -t^2 (1 - t) / 2 outside; the inner two follow from the sums of
+        // weights and of first moments.
+        value[0] = hn::Neg(hn::Mul(half, hn::Mul(t, rest2)));
+        value[3] = hn::Neg(hn::Mul(half, hn::Mul(t2, rest)));
+        value[2] = hn::Sub(hn::Add(t, value[0]), hn::Add(value[3], value[3]));
+        value[1] = hn::Sub(hn::Sub(set(1), value[2]), hn::Add(value[0], value[3]));
+        slope[0] = hn::Mul(half, hn::Mul(rest, hn::MulSub(set(3), t, set(1))));
+        slope[3] = hn::Mul(half, hn::Mul(t, hn::MulSub(set(3), t, set(2))));
+        slope[2] = hn::Sub(hn::Add(set(1), slope[0]), hn::Add(slope[3], slope[3]));
+        slope[1] = hn::Neg(hn::Add(slope[2], hn::Add(slope[0], slope[3])));
+    }
+};
+
+HWY_INLINE V sum_of(const V weights[4], const V values[4]) {
+    return hn::MulAdd(weights[0], values[0],
+                      hn::MulAdd(weights[1], values[1],
+                                 hn::MulAdd(weights[2], values[2],
+                                            hn::Mul(weights[3], values[3]))));
+}
+
+// A coordinate over one cell from the 16 vertices around it, and its changes over a piece.
+struct PiecePosition {
+    V value, along, across;
+    // `field` at the cell's first vertex; (i, j) at pieces of a cell divided as given.
+    PiecePosition(const float* field, std::ptrdiff_t stride, const Cubics& i, const Cubics& j,
+                  V step_i, V step_j) {
+        V at[4];
+        V across_at[2];  // of the inner columns, which is enough for the size of a piece
+        for (int k = 0; k < 4; ++k) {
+            V column[4];
+            for (int m = 0; m < 4; ++m) column[m] = set(field[(m - 1) * stride + k - 1]);
+            at[k] = sum_of(j.value, column);
+            if (k == 1 || k == 2) across_at[k - 1] = sum_of(j.slope, column);
+        }
+        value = sum_of(i.value, at);
+        along = hn::Mul(step_i, sum_of(i.slope, at));
+        const V inner = hn::Add(i.value[1], i.value[2]);
+        across = hn::Mul(hn::Div(step_j, inner), hn::MulAdd(i.value[1], across_at[0],
+                                                            hn::Mul(i.value[2], across_at[1])));
+    }
+};
+
+// Bilinear over a cell, and its changes over a piece.
+HWY_INLINE MaskField bilinear(const float* field, std::ptrdiff_t stride, V i, V j, V step_i,
+                              V step_j) {
+    const V a = set(field[0]);
+    const V right = set(field[1] - field[0]);
+    const V down = set(field[stride] - field[0]);
+    const V both = set(field[stride + 1] - field[stride] - field[1] + field[0]);
+    const V along = hn::MulAdd(both, j, right);
+    return {hn::MulAdd(along, i, hn::MulAdd(down, j, a)), hn::Mul(step_i, along),
+            hn::Mul(step_j, hn::MulAdd(both, i, down))};
+}
+
+// The weight of the facets, linear over the two triangles of a cell.
+HWY_INLINE V facet_weight(const float* smooth, std::ptrdiff_t stride, V i, V j) {
+    const float ends = smooth[stride + 1] - smooth[0];
+    const V low = hn::Min(i, j);
+    const V beside = hn::IfThenElse(hn::Gt(i, j), set(smooth[1]), set(smooth[stride]));
+    // Along the diagonal by the smaller of the two, then towards the third corner.
+    const V on_diagonal = hn::MulAdd(low, set(ends), set(smooth[0]));
+    const V apart = hn::Abs(hn::Sub(i, j));
+    return hn::MulAdd(apart, hn::Sub(beside, set(smooth[0])), on_diagonal);
+}
+
+// Cells of many pieces, one cell at a time: a lane for each piece.
+void draw_cell(const Mesh& mesh, int row, int column, int pieces_i, int pieces_j,
+               const MeshMask& mask, bool masked, const MeshTile& tile) {
+    const D d;
+    const std::ptrdiff_t s = mesh.stride;
+    const std::ptrdiff_t at = row * s + column;
+    const int count = pieces_i * pieces_j;
+    const V step_i = set(1 / static_cast<float>(pieces_i));
+    const V step_j = set(1 / static_cast<float>(pieces_j));
+    const V per_piece = set(mesh.share[at] / static_cast<float>(count));
+    for (int first = 0; first < count; first += kLanes) {
+        const V index = hn::Iota(d, static_cast<float>(first) + 0.5F);
+        const V line = hn::Floor(hn::Mul(index, step_i));
+        const V i = hn::Mul(hn::NegMulAdd(line, set(static_cast<float>(pieces_i)), index), step_i);
+        const V j = hn::Mul(hn::Add(line, set(0.5F)), step_j);
+        const Cubics cubic_i(i);
+        const Cubics cubic_j(j);
+        const PiecePosition y(mesh.y + at, s, cubic_i, cubic_j, step_i, step_j);
+        const PiecePosition x(mesh.x + at, s, cubic_i, cubic_j, step_i, step_j);
+        const M exist = hn::FirstN(d, static_cast<std::size_t>(std::min(kLanes, count - first)));
+        if (hn::AllFalse(d, hn::And(exist, near(tile, x.value, y.value)))) continue;
+        V energy = hn::Mul(per_piece, bilinear(mesh.power + at, s, i, j, step_i, step_j).value);
+        energy = hn::NegMulAdd(energy, facet_weight(mesh.smooth + at, s, i, j), energy);
+        if (masked) {
+            MaskPlace place;
+            place.u = bilinear(mesh.u + at, s, i, j, step_i, step_j);
+            place.v = bilinear(mesh.v + at, s, i, j, step_i, step_j);
+            place.clip = bilinear(mesh.clip + at, s, i, j, step_i, step_j);
+            place.entrance_x =
+                hn::MulAdd(hn::Add(i, set(static_cast<float>(column))),
+                           set(mesh.entrance_step_x), set(mesh.entrance_x));
+            place.entrance_y = hn::MulAdd(hn::Add(j, set(static_cast<float>(row))),
+                                          set(mesh.entrance_step_y), set(mesh.entrance_y));
+            place.entrance_width = std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y /
+                                             static_cast<float>(count));
+            energy = hn::Mul(energy, light_at(mask, place));
+        }
+        const Overlap on_x = lay(x.value, width_of(x.along, x.across));
+        const Overlap on_y = lay(y.value, width_of(y.along, y.across));
+        const M kept = hn::And(hn::And(exist, hn::Gt(energy, hn::Zero(d))),
+                               touching(tile, on_x.first, on_y.first));
+        if (!hn::AllFalse(d, kept)) scatter(tile, on_x, on_y, kept, energy);
+    }
+}
+
+// Is all that a cell draws outside [low, high]? Its cubics stay near its corners.
+bool outside(const float* field, std::ptrdiff_t stride, float low, float high) {
+    const auto [least, most] =
+        std::minmax({field[0], field[1], field[stride], field[stride + 1]});
+    const float more = 0.5F * (most - least) + 1.5F;
+    return most + more < low || least - more > high;
+}
+
+void draw(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask, const MeshTile& tile) {
+    constexpr int kFewPieces = 6;
+    if (group.pieces_i * group.pieces_j <= kFewPieces) {
+        draw_cells(mesh, group, mask, tile);
+        return;
+    }
+    const std::ptrdiff_t s = mesh.stride;
+    const int last = std::min(group.column + kGroup, mesh.columns - 2);
+    for (int column = group.column; column < last; ++column) {
+        const std::ptrdiff_t at = group.row * s + column;
+        if (mesh.share[at] == 0 ||
+            outside(mesh.y + at, s, static_cast<float>(tile.y0), static_cast<float>(tile.y1)) ||
+            outside(mesh.x + at, s, static_cast<float>(tile.x0), static_cast<float>(tile.x1))) {
+            continue;
+        }
+        const auto pieces = [&](std::ptrdiff_t step, std::ptrdiff_t beside, int most) {
+            const float change = std::max(largest_change(mesh.x + at, step, beside),
+                                          largest_change(mesh.y + at, step, beside));
+            return pieces_for(change, static_cast<float>(most));
+        };
+        const bool masked =
+            mesh.state[static_cast<std::ptrdiff_t>(group.row) * mesh.columns + column] ==
+            kCellMasked;
+        draw_cell(mesh, group.row, column, pieces(1, s, group.pieces_i),
+                  pieces(s, 1, group.pieces_j), mask, masked, tile);
+    }
+}
+
 }  // namespace
 }  // namespace aureole::lens::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -308,7 +437,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace aureole::lens {
 HWY_EXPORT(draw);
-void draw_pieces(const Mesh& mesh, const MeshGroup& group, const PieceMask& mask,
+void draw_pieces(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
                  const MeshTile& tile) {
     HWY_DYNAMIC_DISPATCH(draw)(mesh, group, mask, tile);
 }

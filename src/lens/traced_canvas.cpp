@@ -19,7 +19,7 @@ constexpr int kReach = BlurKernel::kMaxRadius;
 
 // Draws one mesh on rows [y0, y1) through `sums`, which are zero before and after. Returns the
 // pixels of a row that it may have drawn on.
-RowSpan draw_on(const MeshPaint& paint, const PieceMask& mask, const Target& target, int y0, int y1,
+RowSpan draw_on(const MeshPaint& paint, const MeshMask& mask, const Target& target, int y0, int y1,
                 float* sums) {
     const TracedMesh::Bounds& b = paint.mesh->bounds();
     const int top = std::max(y0, b.y0);
@@ -75,7 +75,7 @@ TracedCanvas::TracedCanvas(const Canvas& canvas) {
     scratch_tiles_.reserve(rows / kTileRows + 1);
 }
 
-void TracedCanvas::draw(std::span<const MeshPaint> meshes, const PieceMask& mask, Canvas& canvas) {
+void TracedCanvas::draw(std::span<const MeshPaint> meshes, const MeshMask& mask, Canvas& canvas) {
     parallel_for(tiles_.size(), [&](std::size_t t, int worker) {
         const Tile& tile = tiles_[t];
         const CanvasLevel& level = canvas.level(tile.level);
@@ -96,7 +96,7 @@ void TracedCanvas::draw(std::span<const MeshPaint> meshes, const PieceMask& mask
     });
 }
 
-void TracedCanvas::draw_blurred(std::span<const MeshPaint> meshes, const PieceMask& mask,
+void TracedCanvas::draw_blurred(std::span<const MeshPaint> meshes, const MeshMask& mask,
                                 const BlurKernel& kernel, Canvas& canvas) {
     if (meshes.empty()) return;
     const CanvasLevel& level = canvas.level(meshes.front().level);

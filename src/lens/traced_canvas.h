@@ -25,10 +25,10 @@ class TracedCanvas {
     explicit TracedCanvas(const Canvas& canvas);
 
     // Adds meshes in their order, whatever the threads. Marks what it uses.
-    void draw(std::span<const MeshPaint> meshes, const PieceMask& mask, Canvas& canvas);
+    void draw(std::span<const MeshPaint> meshes, const MeshMask& mask, Canvas& canvas);
     // The same for meshes of one level, blurred together; they may reach kernel.radius() pixels
     // beyond the level's margins.
-    void draw_blurred(std::span<const MeshPaint> meshes, const PieceMask& mask,
+    void draw_blurred(std::span<const MeshPaint> meshes, const MeshMask& mask,
                       const BlurKernel& kernel, Canvas& canvas);
 
   private:

@@ -66,7 +66,7 @@ struct TracedGhosts::Impl {
         }
         paints.reserve(at_once);
         items.reserve(at_once);
-        if (options.method == GhostMethod::kHybrid) comparison.emplace(a_lens, a_film, ghosts);
+        comparison.emplace(a_lens, a_film, ghosts);
     }
 
     void prepare(const sources::Light& light, const GhostDraw& draw, const Canvas& canvas,
@@ -111,7 +111,7 @@ void TracedGhosts::Impl::prepare(const sources::Light& light, const GhostDraw& d
     if (ghost.light.found.entrance.empty()) return;
     if (light.moment_xx > 0 || light.moment_yy > 0) prepare_blur(light, draw.ghost, canvas);
     // Below that, a blur or coarse pixels hide the bands.
-    constexpr double kOutlinesPx = 1.5;
+    constexpr double kOutlinesPx = 3;
     const double apart_px = ghost.light.dispersion_mm / (film.mm_per_px * (1 << ghost.level));
     const double hidden_px = ghost.blurred ? BlurKernel::reach(ghost.blur) : 0;
     ghost.in_strata = apart_px > kOutlinesPx + hidden_px;
@@ -146,8 +146,7 @@ void TracedGhosts::Impl::prepare_blur(const sources::Light& light, int index,
 }
 
 MeshJob TracedGhosts::Impl::job_for(const sources::Light& light, const Item& item,
-                                    const Canvas& canvas,
-                                    std::vector<RayStep>& scratch) const {
+                                    const Canvas& canvas, std::vector<RayStep>& scratch) const {
     const GhostNow& ghost = of(*item.draw);
     const CanvasLevel& level = canvas.level(ghost.level);
     const int index = item.draw->ghost;
@@ -163,7 +162,7 @@ MeshJob TracedGhosts::Impl::job_for(const sources::Light& light, const Item& ite
                 .iris = mask.field(),
                 .inner_radius = mask.inner_radius(),
                 .outer_radius = mask.outer_radius(),
-                .all_masked = mask.piece_mask().extra != nullptr,
+                .all_masked = mask.mesh_mask().extra != nullptr,
                 .film = &film,
                 .level = ghost.level};
     const double reach = ghost.blurred ? std::ceil(BlurKernel::reach(ghost.blur) + 0.5) : 0;
@@ -204,9 +203,8 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
     Impl& m = *impl_;
     if (!m.tiles) m.tiles.emplace(canvas);
     m.rays = 0;
-    parallel_for(ghosts.size(), [&](std::size_t g, int worker) {
-        m.prepare(light, ghosts[g], canvas, worker);
-    });
+    parallel_for(ghosts.size(),
+                 [&](std::size_t g, int worker) { m.prepare(light, ghosts[g], canvas, worker); });
     for (TracedBands::Probe& probe : m.probes) m.rays += probe.take_rays();
 
     // In batches: trace, then draw.
@@ -216,8 +214,8 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
         m.items.clear();
         while (next < ghosts.size() && m.items.size() < m.meshes.size()) {
             const GhostNow& ghost = m.of(ghosts[next]);
-            const int bands = ghost.in_strata ? m.bands.count() * TracedBands::kStrata
-                                              : m.bands.count();
+            const int bands =
+                ghost.in_strata ? m.bands.count() * TracedBands::kStrata : m.bands.count();
             if (ghost.light.found.entrance.empty() || band == bands) {
                 ++next;
                 band = 0;
@@ -233,7 +231,7 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
             m.rays += m.meshes[k].rays();
             if (!m.of(*m.items[k].draw).blurred) m.paints.push_back(m.paint_for(light, k));
         }
-        m.tiles->draw(m.paints, m.mask.piece_mask(), canvas);
+        m.tiles->draw(m.paints, m.mask.mesh_mask(), canvas);
         for (std::size_t k = 0; k < m.items.size();) {
             const GhostDraw* draw = m.items[k].draw;
             m.paints.clear();
@@ -242,16 +240,15 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
             }
             if (!m.of(*draw).blurred) continue;
             m.kernel.set(m.of(*draw).blur);
-            m.tiles->draw_blurred(m.paints, m.mask.piece_mask(), m.kernel, canvas);
+            m.tiles->draw_blurred(m.paints, m.mask.mesh_mask(), m.kernel, canvas);
         }
     }
 }
 
 void TracedGhosts::compare(const sources::Light& light, std::span<const MatrixGhost> placements,
-                           std::span<float> difference) {
+                           std::span<GhostComparison> comparisons) {
     Impl& m = *impl_;
-    assert(m.comparison);
-    m.comparison->compare(light, m.mask, placements, difference);
+    m.comparison->compare(light, m.mask, placements, comparisons);
 }
 
 std::size_t TracedGhosts::rays() const noexcept { return impl_->rays; }

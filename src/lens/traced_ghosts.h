@@ -24,11 +24,9 @@ class TracedGhosts {
     // bits on any number of threads.
     void draw(const sources::Light& light, std::span<const GhostDraw> ghosts, Canvas& canvas);
 
-    // For each ghost of the list: an estimate of the sum over pixels of |matrix - traced| over the
-    // energy of the traced one, 0 to 2, from a few hundred rays. `placements` are those of the same
-    // light.
+    // Of every ghost of the list; `placements` are those of the same light.
     void compare(const sources::Light& light, std::span<const MatrixGhost> placements,
-                 std::span<float> difference);
+                 std::span<GhostComparison> comparisons);
 
     // Traced by the last draw().
     std::size_t rays() const noexcept;

@@ -18,8 +18,8 @@ float TracedMask::outer_radius() const noexcept {
     return texture_.empty() ? static_cast<float>(iris_.outer_radius()) : std::sqrt(2.0F);
 }
 
-PieceMask TracedMask::piece_mask() const noexcept {
-    PieceMask mask;
+MeshMask TracedMask::mesh_mask() const noexcept {
+    MeshMask mask;
     mask.iris = field();
     mask.open = !texture_.empty() || iris_.is_image();
     if (mask.open || occluder_) {

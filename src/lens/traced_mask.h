@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "aureole/lens/iris.h"
-#include "lens/mesh_pieces.h"
+#include "lens/mesh_mask.h"
 #include "lens/traced_ways.h"
 
 namespace aureole::lens {
@@ -21,7 +21,7 @@ class TracedMask {
     float inner_radius() const noexcept;
     float outer_radius() const noexcept;
     // Points into this object.
-    PieceMask piece_mask() const noexcept;
+    MeshMask mesh_mask() const noexcept;
 
   private:
     static void transmit(const void* context, const float* u, const float* v,

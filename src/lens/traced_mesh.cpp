@@ -7,6 +7,7 @@
 
 #include "lens/mesh_classify.h"
 #include "lens/mesh_facets.h"
+#include "lens/mesh_upsample.h"
 
 namespace aureole::lens {
 namespace {
@@ -111,27 +112,38 @@ TracedMesh::TracedMesh(int side)
     : side_(side),
       sparse_side_(sparse_side(side)),
       memory_(bytes(side) / sizeof(float)),
-      state_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side)),
-      patch_state_(static_cast<std::size_t>(kPatchColumns) * kPatchRows),
-      groups_(most_groups(side, side) + kMaxPatches * most_groups(kPatchColumns, kPatchRows)),
+      states_(static_cast<std::size_t>(side * side + kFineSide * kFineSide +
+                                       kMaxPatches * kPatchColumns * kPatchRows)),
+      groups_(most_groups(std::max(side, kFineSide), std::max(side, kFineSide)) +
+              kMaxPatches * most_groups(kPatchColumns, kPatchRows)),
       patches_(kMaxPatches) {
     std::fill(memory_.data(), memory_.data() + memory_.size(), 0.0F);
     float* memory = memory_.data();
     allocate(grid_, side, side, memory);
+    std::uint8_t* states = states_.data();
+    grid_.state = states;
+    states += side * side;
     memory += kMeshFields * field_floats(side, side);
+    allocate(fine_, kFineSide, kFineSide, memory);
+    fine_.state = states;
+    states += kFineSide * kFineSide;
+    memory += kMeshFields * field_floats(kFineSide, kFineSide);
     sparse_ = memory;
     memory += field_floats(sparse_side_, sparse_side_);
     sparse_row_ = memory;
     memory += field_floats(sparse_side_, 1);
     for (Patch& patch : patches_) {
         allocate(patch.mesh, kPatchColumns, kPatchRows, memory);
+        patch.mesh.state = states;
+        states += kPatchColumns * kPatchRows;
         memory += kMeshFields * field_floats(kPatchColumns, kPatchRows);
     }
 }
 
 std::size_t TracedMesh::bytes(int side) {
     const int sparse = sparse_side(side);
-    return sizeof(float) * (kMeshFields * field_floats(side, side) + field_floats(sparse, sparse) +
+    return sizeof(float) * (kMeshFields * field_floats(side, side) +
+                            kMeshFields * field_floats(kFineSide, kFineSide) + field_floats(sparse, sparse) +
                             field_floats(sparse, 1) +
                             kMaxPatches * kMeshFields * field_floats(kPatchColumns, kPatchRows));
 }
@@ -216,9 +228,9 @@ void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double s
 
 // Gives refined cells patches as long as there are any; the others are drawn as they are.
 void TracedMesh::refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
-                        int depth, std::uint8_t* state) noexcept {
+                        int depth) noexcept {
     for (int row = 1; row + 2 < mesh.rows; ++row) {
-        std::uint8_t* cell = state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
+        std::uint8_t* cell = mesh.state + static_cast<std::ptrdiff_t>(row) * mesh.columns;
         const float* clip = mesh.clip + row * mesh.stride;
         for (int column = 1; column + 2 < mesh.columns; ++column) {
             if (cell[column] != kCellRefined) continue;
@@ -262,6 +274,31 @@ void TracedMesh::add_bounds(std::span<const MeshGroup> groups) noexcept {
     }
 }
 
+// Into how many parts cells are best divided: facets are smoothest if they are some pixels wide, and
+// what folds spoil of them is least.
+int TracedMesh::upsampling(int side) const noexcept {
+    constexpr double kGoodFacetPx = 7;
+    constexpr int kEvery = 3;  // rows looked at
+    double area = 0;
+    int count = 0;
+    for (int row = 1; row + 2 < side; row += kEvery) {
+        for (int column = 1; column + 2 < side; ++column) {
+            const std::uint8_t state = grid_.state[row * side + column];
+            if (state != kCellOpen && state != kCellMasked) continue;
+            const std::ptrdiff_t a = row * grid_.stride + column;
+            const std::ptrdiff_t b = a + grid_.stride;
+            area += std::abs((grid_.x[b + 1] - grid_.x[a]) * (grid_.y[a + 1] - grid_.y[b]) -
+                             (grid_.x[a + 1] - grid_.x[b]) * (grid_.y[b + 1] - grid_.y[a]));
+            ++count;
+        }
+    }
+    if (count == 0) return 1;
+    const double size_px = std::sqrt(0.5 * area / count);
+    int factor = std::clamp(static_cast<int>(size_px / kGoodFacetPx + 0.5), 1, kMostUpsampling);
+    while (factor > 1 && upsampled(side, factor) > kFineSide) --factor;
+    return factor;
+}
+
 void TracedMesh::build(const MeshJob& job) noexcept {
     rays_ = 0;
     patch_count_ = group_count_ = grid_groups_ = 0;
@@ -293,24 +330,34 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     options.x1 = job.x1;
     options.y0 = job.y0;
     options.y1 = job.y1;
-    const auto finish = [&](const Mesh& mesh, double i, double j, double step, int depth,
-                            std::uint8_t* state) {
-        mesh_classifier().classify(mesh, options, state);
-        refine(job, mesh, i, j, step, depth, state);
+    const auto divide = [&](const Mesh& mesh) {
         const int first = group_count_;
-        const int count = mesh_classifier().divide(mesh, state, groups_.data() + first);
+        const int count = mesh_classifier().divide(mesh, groups_.data() + first);
         group_count_ += count;
         add_bounds(std::span(groups_).subspan(static_cast<std::size_t>(first),
                                               static_cast<std::size_t>(count)));
         return count;
     };
-    grid_groups_ = finish(grid_, 0, 0, 1, 0, state_.data());
+    mesh_classifier().classify(grid_, options);
+    refine(job, grid_, 0, 0, 1, 0);
+    const int factor = upsampling(side_);
+    upsampled_ = factor > 1;
+    if (upsampled_) {
+        fine_.columns = fine_.rows = upsampled(side_, factor);
+        fine_.stride = ray_stride(fine_.columns);
+        upsample(grid_, factor, fine_);
+        options.upsampled = true;
+        mesh_classifier().classify(fine_, options);
+        options.upsampled = false;
+    }
+    grid_groups_ = divide(upsampled_ ? fine_ : grid_);
     // The list grows while it is worked through.
     for (int k = 0; k < patch_count_; ++k) {
         Patch& patch = patches_[static_cast<std::size_t>(k)];
         patch.first_group = group_count_;
-        patch.group_count =
-            finish(patch.mesh, patch.i, patch.j, patch.step, patch.depth, patch_state_.data());
+        mesh_classifier().classify(patch.mesh, options);
+        refine(job, patch.mesh, patch.i, patch.j, patch.step, patch.depth);
+        patch.group_count = divide(patch.mesh);
     }
     if (getenv("DBG")) {
         double pieces = 0, most = 0; for (int g = 0; g < group_count_; ++g) { double p = 16.0*groups_[g].pieces_i*groups_[g].pieces_j; pieces += p; if (p>most) most=p; }
@@ -319,7 +366,7 @@ void TracedMesh::build(const MeshJob& job) noexcept {
 }
 
 void TracedMesh::draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups,
-                             const PieceMask& mask, const MeshTile& tile) const noexcept {
+                             const MeshMask& mask, const MeshTile& tile) const noexcept {
     const auto x0 = static_cast<float>(tile.x0);
     const auto x1 = static_cast<float>(tile.x1);
     const auto y0 = static_cast<float>(tile.y0);
@@ -329,14 +376,14 @@ void TracedMesh::draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups
         if (group.pieces_i > 0) {
             draw_pieces(mesh, group, mask, tile);
         } else {
-            draw_facets(mesh, group, tile);
+            draw_facets(mesh, group, mask, tile);
         }
     }
 }
 
-void TracedMesh::draw(const PieceMask& mask, const MeshTile& tile) const noexcept {
+void TracedMesh::draw(const MeshMask& mask, const MeshTile& tile) const noexcept {
     const std::span groups(groups_);
-    draw_groups(grid_, groups.first(static_cast<std::size_t>(grid_groups_)), mask, tile);
+    draw_groups(upsampled_ ? fine_ : grid_, groups.first(static_cast<std::size_t>(grid_groups_)), mask, tile);
     for (int k = 0; k < patch_count_; ++k) {
         const Patch& patch = patches_[static_cast<std::size_t>(k)];
         draw_groups(patch.mesh,

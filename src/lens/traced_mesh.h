@@ -42,7 +42,7 @@ class TracedMesh {
     void build(const MeshJob& job) noexcept;
 
     // Draws all that falls into a tile.
-    void draw(const PieceMask& mask, const MeshTile& tile) const noexcept;
+    void draw(const MeshMask& mask, const MeshTile& tile) const noexcept;
     // Pixels of the level that draw() may touch: [x0, x1) x [y0, y1); empty if y0 >= y1.
     struct Bounds {
         int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
@@ -50,9 +50,6 @@ class TracedMesh {
     const Bounds& bounds() const noexcept { return bounds_; }
     std::size_t rays() const noexcept { return rays_; }
     static std::size_t bytes(int side);
-
-    // The grid, for comparisons.
-    const Mesh& grid() const noexcept { return grid_; }
 
   private:
     // Throughput varies slowly: it is traced for every 4th ray, and interpolated by cubics.
@@ -64,6 +61,8 @@ class TracedMesh {
     static constexpr int kPatchColumns = kRun * kFiner + 3;
     static constexpr int kPatchRows = kFiner + 3;
     static constexpr int kMaxPatches = 256;
+    // A grid is upsampled up to so many vertices per side.
+    static constexpr int kFineSide = 300;
     static constexpr int kMaxDepth = 3;
     static_assert(ray_stride(kPatchColumns) == kRayBlock);
 
@@ -81,21 +80,23 @@ class TracedMesh {
     void trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept;
     void interpolate_throughput(Mesh& mesh, double i, double j, double step,
                                 float scale) const noexcept;
-    void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step, int depth,
-                std::uint8_t* state) noexcept;
+    void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
+                int depth) noexcept;
+    int upsampling(int side) const noexcept;
     void add_bounds(std::span<const MeshGroup> groups) noexcept;
-    void draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups, const PieceMask& mask,
+    void draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups, const MeshMask& mask,
                      const MeshTile& tile) const noexcept;
 
     int side_;
     int sparse_side_;
     Buffer memory_;
     Mesh grid_;
+    Mesh fine_;  // the grid upsampled, if that is what is drawn
+    bool upsampled_ = false;
     RayBundle bundle_;
     float* sparse_ = nullptr;
     float* sparse_row_ = nullptr;  // between rows of it
-    std::vector<std::uint8_t> state_;
-    std::vector<std::uint8_t> patch_state_;
+    std::vector<std::uint8_t> states_;
     std::vector<MeshGroup> groups_;
     int grid_groups_ = 0;
     std::vector<Patch> patches_;

@@ -42,8 +42,9 @@ enum class Look {
     // the lens's entrance pupil over the area of the quad on the sensor (in units of the image
     // circle's radius, 21.65 mm), colour = reflectance of the two faces for R, G, B at one random
     // angle per ghost, same-side ghosts, the entrance as the only clipping aperture, slopes taken
-    // as angles, edges faded by smoothstep(.95, .80) of a smooth 64 x 64 distance field. Ignores
-    // the solid angle of a light but for its product with the radiance.
+    // as angles, edges faded by smoothstep(.95, .80) of a smooth 64 x 64 distance field.
+    // "Relative to an in-focus pixel" is read as: relative to the image of the light in focus, its
+    // area in the same units as the quad's.
     kBlog,
 };
 
