@@ -69,8 +69,8 @@ HWY_INLINE float largest_change(const float* from, std::ptrdiff_t step, std::ptr
     return std::max(on_side(from), on_side(from + beside));
 }
 
-// Into how many pieces a cell is divided that changes by so many pixels: of at most four fifths of a
-// pixel, so that rectangles in the place of parallelograms leave no pattern (2 % at the worst).
+// Into how many pieces a cell is divided that changes by so many pixels: of at most four fifths of
+// a pixel, so that rectangles in the place of parallelograms leave no pattern (2 % at the worst).
 HWY_INLINE int pieces_for(float change_px, float most) {
     return static_cast<int>(std::clamp(std::ceil(1.25F * change_px), 1.0F, most));
 }

@@ -46,8 +46,8 @@ BlurMoments blur_of(const Tracer& tracer, const Bounces& ghost, const sources::L
     const Landing at = land(tx, ty, x_mm, y_mm);
     const auto by_place = jacobian(at, land(tx, ty, x_mm + kShiftMm, y_mm),
                                    land(tx, ty, x_mm, y_mm + kShiftMm), kShiftMm);
-    const auto by_slope = jacobian(at, land(tx + kSlope, ty, x_mm, y_mm),
-                                   land(tx, ty + kSlope, x_mm, y_mm), kSlope);
+    const auto by_slope =
+        jacobian(at, land(tx + kSlope, ty, x_mm, y_mm), land(tx, ty + kSlope, x_mm, y_mm), kSlope);
     if (!arrived) return {};
     // As the light moves, the ray through the same point of the stop enters elsewhere:
     // dp = -(du/dp)^-1 du/ds ds.

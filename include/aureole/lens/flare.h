@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "aureole/base/progress.h"
 #include "aureole/image/image.h"
 #include "aureole/image/view.h"
 #include "aureole/lens/ghosts.h"
@@ -120,8 +121,10 @@ class Flare {
     Flare& operator=(Flare&&) noexcept;
 
     // Adds the ghosts of all lights to `out` (3 channels, the view's size). Never NaN. A light that
-    // the lens does not see adds nothing. Not to be run from two threads at once.
-    void render(std::span<const sources::Light> lights, const ImageView& out);
+    // the lens does not see adds nothing. Not to be run from two threads at once. Reports after
+    // each light; throws Cancelled between two, and `out` is then as it was.
+    void render(std::span<const sources::Light> lights, const ImageView& out,
+                Progress* progress = nullptr);
 
     // Of the last render().
     const FlareReport& report() const noexcept;
