@@ -80,7 +80,7 @@ const Image* CameraObserver::ghosts(const io::Picture& picture, const View& disp
     session_.check_interrupt();
     session_.timed("ghosts", [&] {
         for (int c = 0; c < 3; ++c) std::fill_n(ghosts_.plane(c), ghosts_.pixels(), 0.0F);
-        flare_->render(lights_.lights, ghosts_);
+        flare_->render(lights_.lights, ghosts_, &session_);
     });
     if (!lights_.lights.empty() && flare_energy(flare_->report()) == 0) {
         session_.note("the lens does not see the light, or all ghosts are off: no ghosts");

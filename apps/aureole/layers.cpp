@@ -24,14 +24,16 @@ Image difference(const ConstImageView& after, const ConstImageView& before) {
 void add_light(const Image& light, Image& to) {
     parallel_for(static_cast<std::size_t>(to.height()), [&](std::size_t row, int) {
         const int y = static_cast<int>(row);
-        const float* rgb[] = {light.row(y, 0), light.row(y, 1), light.row(y, 2)};
-        for (int c = 0; c < to.channels(); ++c) {
-            float* out = to.row(y, c);
-            for (int x = 0; x < to.width(); ++x) {
-                out[x] +=
-                    to.channels() == 3
-                        ? rgb[c][x]
-                        : static_cast<float>(color::luminance({rgb[0][x], rgb[1][x], rgb[2][x]}));
+        for (int x = 0; x < to.width(); ++x) {
+            const float r = light.at(x, y, 0);
+            const float g = light.at(x, y, 1);
+            const float b = light.at(x, y, 2);
+            if (to.channels() == 1) {
+                to.at(x, y) += static_cast<float>(color::luminance({r, g, b}));
+            } else {
+                to.at(x, y, 0) += r;
+                to.at(x, y, 1) += g;
+                to.at(x, y, 2) += b;
             }
         }
     });

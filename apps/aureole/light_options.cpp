@@ -79,9 +79,9 @@ void LightOptions::add_options(CLI::App& command) {
 std::string LightOptions::first_given() const { return app::first_given(*group_); }
 
 LightOptions::Given LightOptions::parse(const std::string& text) {
-    const InvalidArgument wrong("--light", text, kForm);
+    const auto wrong = [&] { return InvalidArgument("--light", text, kForm); };
     const std::vector<std::string> parts = parts_of(text);
-    if (parts.size() < 3 || parts.size() > 4) throw wrong;
+    if (parts.size() < 3 || parts.size() > 4) throw wrong();
     Given given;
     std::optional<double> x = given_angle(parts[0]);
     std::optional<double> y = given_angle(parts[1]);
@@ -92,9 +92,9 @@ LightOptions::Given LightOptions::parse(const std::string& text) {
     }
     const std::optional<std::vector<double>> radiance = given_numbers(parts[2], ':');
     const std::optional<double> diameter = parts.size() == 4 ? given_number(parts[3]) : 0.0;
-    if (!x || !y || !radiance || !diameter) throw wrong;
+    if (!x || !y || !radiance || !diameter) throw wrong();
     if ((radiance->size() != 1 && radiance->size() != 3) || !(*diameter >= 0 && *diameter < 90)) {
-        throw wrong;
+        throw wrong();
     }
     given.x = *x;
     given.y = *y;
@@ -102,7 +102,7 @@ LightOptions::Given LightOptions::parse(const std::string& text) {
     for (std::size_t c = 0; c < 3; ++c) {
         const auto value =
             static_cast<float>(radiance->size() == 3 ? (*radiance)[c] : (*radiance)[0]);
-        if (!(value >= 0) || !std::isfinite(value)) throw wrong;
+        if (!(value >= 0) || !std::isfinite(value)) throw wrong();
         given.radiance[c] = value;
     }
     return given;

@@ -1,4 +1,4 @@
-// Look::kBlog: ghosts as the second seed document makes them.
+// Look::kBlog: ghosts as the blog makes them.
 //
 // In its own units: angles of the light as slopes, heights on the sensor over the radius of the
 // image circle of 35 mm film, and a ghost as a square around the projected iris, texture

@@ -1,4 +1,4 @@
-// The look of the second seed document, against its formulas as it prints them.
+// The look of the blog, against its formulas as it prints them.
 #include "lens/blog_look.h"
 
 #include <gtest/gtest.h>

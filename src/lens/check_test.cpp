@@ -134,7 +134,7 @@ TEST(Check, DiametersReadAsRadiiAreFoundInEveryShippedLens) {
     }
 }
 
-// The second seed document's own numbers: 28 mm f/2.8 is an effective aperture of 10 mm and a stop
+// The blog's own numbers: 28 mm f/2.8 is an effective aperture of 10 mm and a stop
 // of about 22 mm diameter; the table prints 9 mm, which is f/3.44.
 TEST(Check, ExplainsTheDoubtAboutTheNikonsFNumber) {
     const auto findings = check(shipped_lens("nikon-28-75"));

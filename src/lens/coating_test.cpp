@@ -1,4 +1,4 @@
-// Thin films, held to Parratt's recursion with complex angles and to the second seed document.
+// Thin films, held to Parratt's recursion with complex angles and to the blog.
 #include "aureole/lens/coating.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ TEST(Coating, AgreesWithParrattsRecursion) {
     EXPECT_GT(evanescent, 500);  // frustrated total reflection is among them
 }
 
-// The function printed in the second seed document, in double precision.
+// The function printed in the blog, in double precision.
 TEST(Coating, OneLayerAgreesWithTheSeedDocument) {
     for (const double glass : {1.45, 1.62, 1.85}) {
         const Coating coating = quarter_wave(1, glass, 550);

@@ -204,7 +204,8 @@ Flare::~Flare() = default;
 Flare::Flare(Flare&&) noexcept = default;
 Flare& Flare::operator=(Flare&&) noexcept = default;
 
-void Flare::render(std::span<const sources::Light> lights, const ImageView& out) {
+void Flare::render(std::span<const sources::Light> lights, const ImageView& out,
+                   Progress* progress) {
     Impl& flare = *impl_;
     FlareReport& report = flare.report;
     std::fill(report.ghosts.begin(), report.ghosts.end(), GhostReport{});
@@ -213,7 +214,13 @@ void Flare::render(std::span<const sources::Light> lights, const ImageView& out)
     for (std::size_t i = 0; i < flare.list.size(); ++i) report.ghosts[i].bounces = Bounces{};
     flare.canvas.clear();
     double energy = 0;
+    std::size_t done = 0;
     for (const sources::Light& light : lights) {
+        if (progress != nullptr) {
+            if (progress->cancelled()) throw Cancelled();
+            progress->report("ghosts",
+                             static_cast<double>(done++) / static_cast<double>(lights.size()));
+        }
         flare.estimate(light);
         const PlanTotals totals =
             plan_ghosts(flare.estimates, flare.options, flare.canvas.levels() - 1, flare.plans);

@@ -31,7 +31,7 @@ void check(const IrisShape& shape) {
     }
 }
 
-// The polynomial smooth maximum of the second seed document (after Inigo Quilez), of a >= b.
+// The polynomial smooth maximum of the blog (after Inigo Quilez), of a >= b.
 template <class T>
 T smooth_maximum(T a, T b, T k) {
     if (k <= 0) return a;

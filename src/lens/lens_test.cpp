@@ -27,9 +27,9 @@ Prescription singlet(double f_number = 4) {
                    f_number);
 }
 
-// The second seed document: "for the Nikon lens we found D ~ 10 mm", that is 28 mm / 2.8, and the
+// The blog: "for the Nikon lens we found D ~ 10 mm", that is 28 mm / 2.8, and the
 // stop "~22 mm diameter". The table's own focal length is 28.9 mm.
-TEST(Lens, StopOfTheSeedDocument) {
+TEST(Lens, StopOfTheBlog) {
     const Lens lens(shipped_lens("nikon-28-75"), {.f_number = 2.8});
     EXPECT_NEAR(2 * lens.stop_radius_mm(), 22, 0.7);
     EXPECT_NEAR(lens.efl_mm() / lens.f_number(), 10, 0.4);

@@ -93,8 +93,8 @@ HWY_INLINE M is_nearly_even(const Mesh& mesh, std::ptrdiff_t at) {
     const V b = area_around(mesh, at + 1);
     const V c = area_around(mesh, at + mesh.stride);
     const V e = area_around(mesh, at + mesh.stride + 1);
-    return is_even(hn::Min(hn::Min(a, b), hn::Min(c, e)), hn::Max(hn::Max(a, b), hn::Max(c, e)),
-                   0, kRoughStretch);
+    return is_even(hn::Min(hn::Min(a, b), hn::Min(c, e)), hn::Max(hn::Max(a, b), hn::Max(c, e)), 0,
+                   kRoughStretch);
 }
 
 void classify(const Mesh& mesh, const ClassifyOptions& options) {
@@ -132,17 +132,16 @@ void classify(const Mesh& mesh, const ClassifyOptions& options) {
 
             const CellBounds xs(mesh.x + at, s);
             const CellBounds ys(mesh.y + at, s);
-            const M drawn =
-                hn::And(passes, hn::And(meets(Reach(xs), options.x0, options.x1),
-                                        meets(Reach(ys), options.y0, options.y1)));
+            const M drawn = hn::And(passes, hn::And(meets(Reach(xs), options.x0, options.x1),
+                                                    meets(Reach(ys), options.y0, options.y1)));
             if (hn::AllFalse(d, hn::Or(drawn, broken))) continue;
             M refined = hn::FirstN(d, 0);
             if (!options.upsampled) {
                 const V off = hn::Max(cubic_error(mesh.x + at, s), cubic_error(mesh.y + at, s));
                 const V size = hn::Max(hn::Sub(xs.high, xs.low), hn::Sub(ys.high, ys.low));
                 const M rough = hn::Or(hn::Gt(off, set(kRough)), hn::Gt(size, set(kLargestCell)));
-                refined = hn::Or(hn::AndNot(is_nearly_even(mesh, at), hn::And(drawn, rough)),
-                                 broken);
+                refined =
+                    hn::Or(hn::AndNot(is_nearly_even(mesh, at), hn::And(drawn, rough)), broken);
             }
             M cut = hn::Or(hn::Gt(hn::Add(clip.high, spread), set(1)),
                            hn::Gt(far, set(options.inner_radius)));
@@ -242,14 +241,19 @@ int divide(const Mesh& mesh, MeshGroup* groups) {
     }
     // Energy of a triangle of each cell, as it is drawn and as it should be; twice and three times.
     const auto sum_triangle = [&](std::ptrdiff_t a, std::ptrdiff_t b, std::ptrdiff_t c, M which) {
-        const auto x = [&](std::ptrdiff_t k) { return hn::Sub(load(mesh.x + k), load(mesh.x + a)); };
-        const auto y = [&](std::ptrdiff_t k) { return hn::Sub(load(mesh.y + k), load(mesh.y + a)); };
-        const auto sum = [&](auto&& value) { return hn::Add(value(a), hn::Add(value(b), value(c))); };
+        const auto x = [&](std::ptrdiff_t k) {
+            return hn::Sub(load(mesh.x + k), load(mesh.x + a));
+        };
+        const auto y = [&](std::ptrdiff_t k) {
+            return hn::Sub(load(mesh.y + k), load(mesh.y + a));
+        };
+        const auto sum = [&](auto&& value) {
+            return hn::Add(value(a), hn::Add(value(b), value(c)));
+        };
         const V area = hn::Abs(hn::MulSub(x(b), y(c), hn::Mul(x(c), y(b))));
         const V radiance = sum([&](std::ptrdiff_t k) { return load(mesh.radiance + k); });
-        const V power = sum([&](std::ptrdiff_t k) {
-            return hn::Mul(load(mesh.smooth + k), load(mesh.power + k));
-        });
+        const V power = sum(
+            [&](std::ptrdiff_t k) { return hn::Mul(load(mesh.smooth + k), load(mesh.power + k)); });
         given = hn::Add(given, hn::IfThenElseZero(which, hn::Mul(area, radiance)));
         wanted = hn::Add(wanted, hn::IfThenElseZero(which, power));
     };
@@ -293,8 +297,8 @@ int divide(const Mesh& mesh, MeshGroup* groups) {
                     const auto largest = [&](std::ptrdiff_t step, std::ptrdiff_t beside) {
                         const V x = largest_changes(mesh.x + at, step, beside);
                         const V y = largest_changes(mesh.y + at, step, beside);
-                        return hn::IfThenElseZero(
-                            pieced, hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y))));
+                        return hn::IfThenElseZero(pieced,
+                                                  hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y))));
                     };
                     along = hn::Max(along, largest(1, s));
                     across = hn::Max(across, largest(s, 1));
@@ -317,7 +321,8 @@ int divide(const Mesh& mesh, MeshGroup* groups) {
             if (any_facets) groups[count++] = facets;
             if (any_pieces) {
                 const auto parts = [](V change) {
-                    return static_cast<std::int16_t>(pieces_for(highest(change), kPiecesPerPx, kMostPieces));
+                    return static_cast<std::int16_t>(
+                        pieces_for(highest(change), kPiecesPerPx, kMostPieces));
                 };
                 pieces.pieces_i = parts(along);
                 pieces.pieces_j = parts(across);

@@ -6,12 +6,12 @@
 namespace aureole::lens {
 
 struct ClassifyOptions {
-    float inner_radius = 1;   // within it the iris is open
-    float outer_radius = 1;   // beyond it, closed
-    bool all_masked = false;  // something other than apertures may be anywhere
+    float inner_radius = 1;                // within it the iris is open
+    float outer_radius = 1;                // beyond it, closed
+    bool all_masked = false;               // something other than apertures may be anywhere
     float x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // of the level that can be drawn on, pixels
-    // The mesh is upsampled: states hold those of the cells before. None is refined but the parts of
-    // those that were.
+    // The mesh is upsampled: states hold those of the cells before. None is refined but the parts
+    // of those that were.
     bool upsampled = false;
 };
 

@@ -110,8 +110,8 @@ HWY_INLINE V light_on(const Facet& facet, const MeshMask& mask, float entrance_w
 }
 
 template <bool kMasked>
-void draw_triangle(const Mesh& mesh, const Triangle& t,
-                   const MeshMask& mask, const MeshTile& tile) {
+void draw_triangle(const Mesh& mesh, const Triangle& t, const MeshMask& mask,
+                   const MeshTile& tile) {
     const D d;
     const hn::Rebind<std::int32_t, D> di;
     const auto [least, most] = std::minmax({t.a.y, t.b.y, t.c.y});
@@ -157,9 +157,9 @@ void draw_triangle(const Mesh& mesh, const Triangle& t,
             cross(t.ac, y, low, high);
             // Pixels whose middles are in [low, high).
             const auto whole = [&](V x) {
-                const V clamped = hn::Min(hn::Max(hn::Ceil(hn::Sub(x, set(0.5F))),
-                                                  set(static_cast<float>(tile.x0))),
-                                          set(static_cast<float>(tile.x1)));
+                const V clamped = hn::Min(
+                    hn::Max(hn::Ceil(hn::Sub(x, set(0.5F))), set(static_cast<float>(tile.x0))),
+                    set(static_cast<float>(tile.x1)));
                 return hn::ConvertTo(di, clamped);
             };
             hn::Store(whole(low), di, begin + k);
@@ -186,8 +186,7 @@ void draw_triangle(const Mesh& mesh, const Triangle& t,
 void draw(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask, const MeshTile& tile) {
     const std::ptrdiff_t s = mesh.stride;
     const int last = std::min(group.column + kGroup, mesh.columns - 2);
-    const std::uint8_t* states =
-        mesh.state + static_cast<std::ptrdiff_t>(group.row) * mesh.columns;
+    const std::uint8_t* states = mesh.state + static_cast<std::ptrdiff_t>(group.row) * mesh.columns;
     const auto corner = [&](std::ptrdiff_t k) { return Corner{k, mesh.x[k], mesh.y[k]}; };
     std::ptrdiff_t at = group.row * s + group.column;
     Corner upper_left = corner(at);

@@ -27,10 +27,8 @@ struct MaskPlace {
 
 // How much of a place is inside, from a distance that is 1 on the edge.
 HWY_INLINE V inside(const MaskField& distance) {
-    const V width = hn::Max(hn::Add(hn::Abs(distance.along), hn::Abs(distance.across)),
-                            set(1e-6F));
-    const V covered =
-        hn::Add(hn::Div(hn::Sub(set(1), distance.value), width), set(0.5F));
+    const V width = hn::Max(hn::Add(hn::Abs(distance.along), hn::Abs(distance.across)), set(1e-6F));
+    const V covered = hn::Add(hn::Div(hn::Sub(set(1), distance.value), width), set(0.5F));
     return hn::Min(hn::Max(covered, hn::Zero(D())), set(1));
 }
 
@@ -40,8 +38,8 @@ HWY_INLINE V light_at(const MeshMask& mask, const MaskPlace& at) {
     if (!mask.open) {
         const V distance = iris_distance(d, mask.iris, at.u.value, at.v.value);
         const auto beside = [&](V du, V dv) {
-            const V there = iris_distance(d, mask.iris, hn::Add(at.u.value, du),
-                                          hn::Add(at.v.value, dv));
+            const V there =
+                iris_distance(d, mask.iris, hn::Add(at.u.value, du), hn::Add(at.v.value, dv));
             return hn::Sub(there, distance);
         };
         light = hn::Mul(light, inside({distance, beside(at.u.along, at.v.along),

@@ -263,13 +263,12 @@ void draw_cells(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
                 V energy = hn::Mul(per_piece, between(t, line.power + lane + 1, 1));
                 energy = hn::NegMulAdd(energy, facet_weight(line, lane, t, tj), energy);
                 if (masked) {
-                    energy = hn::Mul(energy,
-                                     light_through(mask, mesh, group, line, lane, t, tj));
+                    energy = hn::Mul(energy, light_through(mask, mesh, group, line, lane, t, tj));
                 }
                 const Overlap x = lay(middle_x, width_of(xi, xj, 2));
                 const Overlap y = lay(middle_y, width_of(yi, yj, 2));
-                const M kept = hn::And(touching(tile, x.first, y.first),
-                                       hn::Gt(energy, hn::Zero(d)));
+                const M kept =
+                    hn::And(touching(tile, x.first, y.first), hn::Gt(energy, hn::Zero(d)));
                 if (!hn::AllFalse(d, kept)) scatter(tile, x, y, kept, energy);
             }
         }
@@ -299,10 +298,10 @@ struct Cubics {
 };
 
 HWY_INLINE V sum_of(const V weights[4], const V values[4]) {
-    return hn::MulAdd(weights[0], values[0],
-                      hn::MulAdd(weights[1], values[1],
-                                 hn::MulAdd(weights[2], values[2],
-                                            hn::Mul(weights[3], values[3]))));
+    return hn::MulAdd(
+        weights[0], values[0],
+        hn::MulAdd(weights[1], values[1],
+                   hn::MulAdd(weights[2], values[2], hn::Mul(weights[3], values[3]))));
 }
 
 // A coordinate over one cell from the 16 vertices around it, and its changes over a piece.
@@ -322,8 +321,8 @@ struct PiecePosition {
         value = sum_of(i.value, at);
         along = hn::Mul(step_i, sum_of(i.slope, at));
         const V inner = hn::Add(i.value[1], i.value[2]);
-        across = hn::Mul(hn::Div(step_j, inner), hn::MulAdd(i.value[1], across_at[0],
-                                                            hn::Mul(i.value[2], across_at[1])));
+        across = hn::Mul(hn::Div(step_j, inner),
+                         hn::MulAdd(i.value[1], across_at[0], hn::Mul(i.value[2], across_at[1])));
     }
 };
 
@@ -384,8 +383,7 @@ bool is_outside(const Mesh& mesh, const CellPart& part, const MeshTile& tile) {
 }
 
 // Cells of many pieces, one cell at a time: a lane for each piece.
-void draw_part(const Mesh& mesh, const CellPart& part, const MeshMask& mask,
-               const MeshTile& tile) {
+void draw_part(const Mesh& mesh, const CellPart& part, const MeshMask& mask, const MeshTile& tile) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
     const std::ptrdiff_t at = part.row * s + part.column;
@@ -417,13 +415,11 @@ void draw_part(const Mesh& mesh, const CellPart& part, const MeshMask& mask,
             place.u = bilinear(mesh.u + at, s, i, j, step_i, step_j);
             place.v = bilinear(mesh.v + at, s, i, j, step_i, step_j);
             place.clip = bilinear(mesh.clip + at, s, i, j, step_i, step_j);
-            place.entrance_x =
-                hn::MulAdd(hn::Add(i, set(static_cast<float>(part.column))),
-                           set(mesh.entrance_step_x), set(mesh.entrance_x));
+            place.entrance_x = hn::MulAdd(hn::Add(i, set(static_cast<float>(part.column))),
+                                          set(mesh.entrance_step_x), set(mesh.entrance_x));
             place.entrance_y = hn::MulAdd(hn::Add(j, set(static_cast<float>(part.row))),
                                           set(mesh.entrance_step_y), set(mesh.entrance_y));
-            place.entrance_width =
-                std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y / pieces);
+            place.entrance_width = std::sqrt(mesh.entrance_step_x * mesh.entrance_step_y / pieces);
             energy = hn::Mul(energy, light_at(mask, place));
         }
         const Overlap on_x = lay(x.value, width_of(x.along, x.across, 1));

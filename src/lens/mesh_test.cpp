@@ -40,8 +40,7 @@ class TestMesh {
     void set_iris(const std::function<Point(double, double)>& iris) {
         for (int j = 0; j < mesh.rows; ++j) {
             for (int i = 0; i < mesh.columns; ++i) {
-                const Point p =
-                    iris((i - 1.0) / (mesh.columns - 3), (j - 1.0) / (mesh.rows - 3));
+                const Point p = iris((i - 1.0) / (mesh.columns - 3), (j - 1.0) / (mesh.rows - 3));
                 mesh.u[j * mesh.stride + i] = static_cast<float>(p.x);
                 mesh.v[j * mesh.stride + i] = static_cast<float>(p.y);
             }
@@ -62,8 +61,7 @@ class TestMesh {
         }
         std::vector<MeshGroup> groups(
             static_cast<std::size_t>(2 * drawn->rows * (drawn->columns / kGroup + 1)));
-        groups.resize(
-            static_cast<std::size_t>(mesh_classifier().divide(*drawn, groups.data())));
+        groups.resize(static_cast<std::size_t>(mesh_classifier().divide(*drawn, groups.data())));
         facets = pieces = 0;
         for (const MeshGroup& group : groups) ++(group.pieces_i > 0 ? pieces : facets);
         std::vector<float> picture(static_cast<std::size_t>(kSize * kSize));
@@ -110,7 +108,7 @@ class TestMesh {
         const auto count = static_cast<std::size_t>(mesh.stride * side + kMeshPadding);
         memory_.assign(kMeshFields * count, 0.0F);
         states_.assign(static_cast<std::size_t>(side * side), 0);
-        float** const fields[] = {&mesh.x,    &mesh.y,     &mesh.u,      &mesh.v,    &mesh.clip,
+        float** const fields[] = {&mesh.x,     &mesh.y,      &mesh.u,        &mesh.v,    &mesh.clip,
                                   &mesh.power, &mesh.smooth, &mesh.radiance, &mesh.share};
         for (std::size_t k = 0; k < kMeshFields; ++k) *fields[k] = memory_.data() + k * count;
         mesh.state = states_.data();

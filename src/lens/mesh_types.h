@@ -27,27 +27,27 @@ struct Mesh {
     float* y = nullptr;
     float* u = nullptr;  // iris
     float* v = nullptr;
-    float* clip = nullptr;      // see RayFields
-    float* power = nullptr;     // energy per cell: radiance times pixels of the level
-    float* smooth = nullptr;    // weight of the facets
-    float* radiance = nullptr;  // of the facets, weight included
-    float* share = nullptr;     // by cell: 1 if drawn by pieces, else 0
+    float* clip = nullptr;          // see RayFields
+    float* power = nullptr;         // energy per cell: radiance times pixels of the level
+    float* smooth = nullptr;        // weight of the facets
+    float* radiance = nullptr;      // of the facets, weight included
+    float* share = nullptr;         // by cell: 1 if drawn by pieces, else 0
     std::uint8_t* state = nullptr;  // by cell, [j * columns + i]: CellState
     // Entrance position of vertex (0, 0), and steps between vertices, mm.
     float entrance_x = 0, entrance_y = 0, entrance_step_x = 0, entrance_step_y = 0;
 };
 inline constexpr int kMeshFields = 9;
 
-inline constexpr int kGroup = 16;               // cells along a row that are drawn together
+inline constexpr int kGroup = 16;                // cells along a row that are drawn together
 inline constexpr int kMeshPadding = 4 * kGroup;  // floats behind the last row that are used up
 
 // Cells [column, column + kGroup) of a row that have light to draw.
 struct MeshGroup {
     std::int16_t row = 0;
     std::int16_t column = 0;
-    std::int16_t pieces_i = 0;  // each cell is divided into so many along a row, ...
-    std::int16_t pieces_j = 0;  // ... and across; 0: facets
-    bool masked = false;        // some cell is kCellMasked
+    std::int16_t pieces_i = 0;             // each cell is divided into so many along a row, ...
+    std::int16_t pieces_j = 0;             // ... and across; 0: facets
+    bool masked = false;                   // some cell is kCellMasked
     float x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // bounds of what they draw on, pixels of the level
 };
 

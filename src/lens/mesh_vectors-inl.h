@@ -74,8 +74,8 @@ HWY_INLINE int pieces_for(float length_px, float per_px, float most) {
     return static_cast<int>(std::clamp(std::ceil(per_px * length_px), 1.0F, most));
 }
 
-// Pieces stand as rectangles for parallelograms, which makes a pattern. In small cells, which may be
-// smooth, they are at most half a pixel wide, and drawn twice as wide as they are: they overlap
+// Pieces stand as rectangles for parallelograms, which makes a pattern. In small cells, which may
+// be smooth, they are at most half a pixel wide, and drawn twice as wide as they are: they overlap
 // evenly to 2 % of the brightness at most angles, 4 % at 45 deg. Large cells are pieces only where
 // they are so uneven that the pattern of wider pieces, up to 9 %, is lost in their gradient.
 constexpr float kPiecesPerPx = 2;

@@ -31,8 +31,8 @@ SagRange sag_range(const Face& face, double radius) {
     return range;
 }
 
-// Bounds of a quantity in a cell: from its corners, and from its neighbours' too; lost rays are left
-// out.
+// Bounds of a quantity in a cell: from its corners, and from its neighbours' too; lost rays are
+// left out.
 struct Range {
     float low = kLostRay, high = -kLostRay;
     void include(float value) {
@@ -72,8 +72,7 @@ RayDirection::RayDirection(const sources::Light& light) {
     z = scale;
 }
 
-PlaneBox entrance_of_first_face(const Face& face, const RayDirection& direction,
-                                   double widest) {
+PlaneBox entrance_of_first_face(const Face& face, const RayDirection& direction, double widest) {
     const double radius = face.semi_aperture_mm * (face.stop ? widest : 1);
     const SagRange sag = sag_range(face, radius);
     const auto shifted = [&](double slope, double& low, double& high) {
@@ -93,9 +92,8 @@ EntranceSearch::EntranceSearch() : memory_(5 * kSide * kSide) {
     for (std::size_t k = 0; k < 5; ++k) *all[k] = memory_.data() + k * kSide * kSide;
 }
 
-EntranceFound EntranceSearch::possible(const EntranceQuery& query,
-                                       std::span<const RayStep> way, const PlaneBox& box,
-                                       bool last) noexcept {
+EntranceFound EntranceSearch::possible(const EntranceQuery& query, std::span<const RayStep> way,
+                                       const PlaneBox& box, bool last) noexcept {
     static_assert(ray_stride(kSide) == kSide);
     RayBundle rays;
     rays.direction[0] = static_cast<float>(query.direction.x);
@@ -134,8 +132,8 @@ EntranceFound EntranceSearch::possible(const EntranceQuery& query,
                 for (int i = std::max(0, column - 1); i <= std::min(kSide - 1, column + 2); ++i) {
                     const int at = j * kSide + i;
                     if (fields_.clip[at] >= kLostRay) continue;
-                    const bool corner = (j == row || j == row + 1) && (i - column) / 2 == 0 &&
-                                        i >= column;
+                    const bool corner =
+                        (j == row || j == row + 1) && (i - column) / 2 == 0 && i >= column;
                     pass.include(hardest[at], corner);
                     x.include(fields_.x[at], corner);
                     y.include(fields_.y[at], corner);

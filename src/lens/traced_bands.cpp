@@ -34,8 +34,9 @@ TracedBands::TracedBands(const Lens& lens, std::span<const Bounces> ghosts, int 
 
 TracedBands::Probe::Probe(const TracedBands& bands) : memory_(11 * kProbeRays) {
     for (auto& steps : steps_) steps = bands.ways_.scratch();
-    float** const all[] = {&fields_.x, &fields_.y, &fields_.u, &fields_.v, &fields_.clip, &other_.x,
-                           &other_.y,  &other_.u,  &other_.v,  &other_.clip, &energy_};
+    float** const all[] = {&fields_.x,    &fields_.y,   &fields_.u, &fields_.v,
+                           &fields_.clip, &other_.x,    &other_.y,  &other_.u,
+                           &other_.v,     &other_.clip, &energy_};
     for (std::size_t k = 0; k < 11; ++k) *all[k] = memory_.data() + k * kProbeRays;
     means_.resize(bands.bands_.size() + bands.strata_.size() + bands.fine_.size());
 }
@@ -91,8 +92,7 @@ void TracedBands::weigh(int ghost, const RayDirection& direction, const TracedMa
     double apart = 0;
     bool some = false;
     for (std::size_t k = 0; k < kProbeRays; ++k) {
-        const bool passes =
-            at.clip[k] <= 1 && std::hypot(at.u[k], at.v[k]) <= mask.outer_radius();
+        const bool passes = at.clip[k] <= 1 && std::hypot(at.u[k], at.v[k]) <= mask.outer_radius();
         passing[k] = passes ? 1.0F : 0.0F;
         some = some || passes;
         if (!passes || other.clip[k] >= kLostRay) continue;
@@ -121,7 +121,8 @@ void TracedBands::weigh(int ghost, const RayDirection& direction, const TracedMa
                     middle_mean > 0 ? probe.means_[first_fine + f] / middle_mean : 1;
                 const double transmission =
                     ways_.axial_transmission(static_cast<int>(first_fine + f));
-                for (std::size_t c = 0; c < 3; ++c) sum[c] += fine_[f].rgb[c] * ratio / transmission;
+                for (std::size_t c = 0; c < 3; ++c)
+                    sum[c] += fine_[f].rgb[c] * ratio / transmission;
             }
             for (std::size_t c = 0; c < 3; ++c) weights[b][c] = static_cast<float>(sum[c]);
         }

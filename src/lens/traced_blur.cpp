@@ -29,11 +29,10 @@ BlurMoments BlurProbe::moments(const Bounces& ghost, const sources::Light& light
     constexpr double kShiftMm = 1e-4;
     const double tx = light.tan_x;
     const double ty = light.tan_y;
-    const Ray rays[] = {ray_from_light(tx, ty, x_mm, y_mm),
-                        ray_from_light(tx, ty, x_mm + kShiftMm, y_mm),
-                        ray_from_light(tx, ty, x_mm, y_mm + kShiftMm),
-                        ray_from_light(tx + kSlope, ty, x_mm, y_mm),
-                        ray_from_light(tx, ty + kSlope, x_mm, y_mm)};
+    const Ray rays[] = {
+        ray_from_light(tx, ty, x_mm, y_mm), ray_from_light(tx, ty, x_mm + kShiftMm, y_mm),
+        ray_from_light(tx, ty, x_mm, y_mm + kShiftMm), ray_from_light(tx + kSlope, ty, x_mm, y_mm),
+        ray_from_light(tx, ty + kSlope, x_mm, y_mm)};
     for (std::size_t k = 0; k < 5; ++k) {
         if (tracer_.trace(ghost, rays[k], &paths_[k]).fate != Fate::kArrived) return {};
     }
@@ -68,8 +67,8 @@ BlurMoments BlurProbe::moments(const Bounces& ghost, const sources::Light& light
         const Square a = jacobian(limit, 1, kShiftMm);
         const double det = a.a * a.d - a.b * a.c;
         const Square inverse = {a.d / det, -a.b / det, -a.c / det, a.a / det};
-        const Square back = product(jacobian(sensor, 1, kShiftMm),
-                                    product(inverse, jacobian(limit, 3, kSlope)));
+        const Square back =
+            product(jacobian(sensor, 1, kShiftMm), product(inverse, jacobian(limit, 3, kSlope)));
         move = {move.a - back.a, move.b - back.b, move.c - back.c, move.d - back.d};
     }
     const Square moments = {light.moment_xx, light.moment_xy, light.moment_xy, light.moment_yy};

@@ -40,8 +40,7 @@ RowSpan draw_on(const MeshPaint& paint, const MeshMask& mask, const Target& targ
         for (std::size_t c = 0; c < 3; ++c) {
             planes[c] = target.planes[c] + y * target.stride + left;
         }
-        flush_row(sums + (y - top + 1) * tile.stride + 1, right - left, paint.weight,
-                             planes);
+        flush_row(sums + (y - top + 1) * tile.stride + 1, right - left, paint.weight, planes);
     }
     // The rim.
     std::fill(sums, sums + tile.stride, 0.0F);
@@ -122,8 +121,8 @@ void TracedCanvas::draw_blurred(std::span<const MeshPaint> meshes, const MeshMas
     // A box of its own, with room for the kernel on every side.
     target.stride = drawn.x1 - drawn.x0 + 2 * reach;
     for (std::size_t c = 0; c < 3; ++c) {
-        target.planes[c] = scratch_[c].data() + (reach - drawn.y0) * target.stride + reach -
-                           drawn.x0;
+        target.planes[c] =
+            scratch_[c].data() + (reach - drawn.y0) * target.stride + reach - drawn.x0;
     }
     target.x0 = drawn.x0;
     target.x1 = drawn.x1;
@@ -161,10 +160,9 @@ void TracedCanvas::draw_blurred(std::span<const MeshPaint> meshes, const MeshMas
                 const int begin = std::max(left, drawn.x0 - half);
                 const int end = std::min(right, drawn.x1 + half);
                 for (std::size_t c = 0; c < 3; ++c) {
-                    blur_row(
-                        target.planes[c] + (y + dy) * target.stride + begin - half,
-                        kernel.row(dy) + reach - half, 2 * half + 1, end - begin,
-                        level.planes[c] + y * level.stride + begin);
+                    blur_row(target.planes[c] + (y + dy) * target.stride + begin - half,
+                             kernel.row(dy) + reach - half, 2 * half + 1, end - begin,
+                             level.planes[c] + y * level.stride + begin);
                 }
             }
         }

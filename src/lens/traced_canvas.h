@@ -38,9 +38,9 @@ class TracedCanvas {
         int level = 0, y0 = 0, y1 = 0;
     };
 
-    std::vector<Tile> tiles_;           // of all levels
-    std::vector<Buffer> sums_;          // by worker
-    std::array<Buffer, 3> scratch_;     // planes of the largest level with kMaxRadius around
+    std::vector<Tile> tiles_;        // of all levels
+    std::vector<Buffer> sums_;       // by worker
+    std::array<Buffer, 3> scratch_;  // planes of the largest level with kMaxRadius around
     std::vector<Tile> scratch_tiles_;
 };
 

@@ -18,8 +18,8 @@ double axial_transmission(const Lens& lens, double wavelength_nm) {
     double transmission = 1;
     for (std::size_t k = 0; k < lens.faces().size(); ++k) {
         transmission *=
-            1 - reflectance(index[k], index[k + 1], lens.faces()[k].coating, wavelength_nm, 1)
-                    .mean();
+            1 -
+            reflectance(index[k], index[k + 1], lens.faces()[k].coating, wavelength_nm, 1).mean();
     }
     return transmission;
 }
@@ -77,8 +77,7 @@ double energy_by_rays(const Bench& bench, const Bounces& ghost, const sources::L
     const auto bands = color::sample_spectrum(kGeometries);
     const auto fine = color::sample_spectrum(kGeometries * kColoursEach);
     for (std::size_t b = 0; b < kGeometries; ++b) {
-        const Passing passing =
-            passing_in(box, 100, bench, ghost, light, bands[b].wavelength_nm);
+        const Passing passing = passing_in(box, 100, bench, ghost, light, bands[b].wavelength_nm);
         for (std::size_t f = b * kColoursEach; f < (b + 1) * kColoursEach; ++f) {
             const double wavelength_nm = fine[f].wavelength_nm;
             const Tracer tracer(bench.lens, wavelength_nm);

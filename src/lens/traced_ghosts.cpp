@@ -72,7 +72,6 @@ struct TracedGhosts::Impl {
         }
         paints.reserve(at_once);
         items.reserve(at_once);
-        
     }
 
     // Where rays of a ghost enter, unless that is known from the same light already.
@@ -132,8 +131,8 @@ void TracedGhosts::Impl::arrange(const sources::Light& light, const GhostDraw& d
     ghost.in_strata = apart_px > kOutlinesPx + hidden_px;
 }
 
-void TracedGhosts::Impl::arrange_blur(const sources::Light& light, int index,
-                                      const Canvas& canvas, int worker) {
+void TracedGhosts::Impl::arrange_blur(const sources::Light& light, int index, const Canvas& canvas,
+                                      int worker) {
     GhostNow& ghost = now[static_cast<std::size_t>(index)];
     const PlaneBox& entrance = ghost.light.found.entrance;
     ghost.blur = blur_probes[static_cast<std::size_t>(worker)].moments(

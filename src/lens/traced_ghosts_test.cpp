@@ -95,8 +95,8 @@ TEST(TracedGhosts, OfASingleLensMatchLinearOptics) {
     const double index = bench.lens.indices(wavelength_nm)[2];
     const double r = std::pow((index - 1) / (index + 1), 2);
     const double pixel = bench.film.mm_per_px;
-    const double radiance = r * r * light.solid_angle_sr /
-                            (a * a * bench.film.irradiance_per_radiance);
+    const double radiance =
+        r * r * light.solid_angle_sr / (a * a * bench.film.irradiance_per_radiance);
     const double radius_px = std::abs(a) * bench.lens.stop_radius_mm() / pixel;
     ASSERT_GT(radius_px, 20);
     const auto in_middle =
@@ -210,7 +210,8 @@ TEST(TracedGhosts, MoveContinuouslyWithTheirLight) {
     double before = 0;
     for (int step = 0; step < 12; ++step) {
         // Across the picture's edge.
-        const sources::Light light = sources::light_at(bench.view, 319.6 + 0.1 * step, 100, {1, 1, 1});
+        const sources::Light light =
+            sources::light_at(bench.view, 319.6 + 0.1 * step, 100, {1, 1, 1});
         const double now = sum_of(bench.draw(light, bench.all()));
         if (step > 0) {
             EXPECT_NEAR(now / before, 1, 0.01) << step;
@@ -281,9 +282,9 @@ TEST(TracedGhosts, SeeDirtAndPicturesOfIrises) {
             draws.push_back({static_cast<int>(g), 0, {1, 1, 1}});
         }
         Image out(view.width, view.height, 3);
-        ghosts.draw(sources::light_in_direction(0, 0, {1, 1, 1}, 0,
-                                                view.pixel_solid_angle_sr(240, 135)),
-                    draws, canvas);
+        ghosts.draw(
+            sources::light_in_direction(0, 0, {1, 1, 1}, 0, view.pixel_solid_angle_sr(240, 135)),
+            draws, canvas);
         canvas.add_to(out);
         return out;
     };

@@ -48,8 +48,8 @@ float TracedMask::texture_at(float u, float v) const noexcept {
 }
 
 void TracedMask::transmit(const void* context, const float* u, const float* v,
-                          const float* iris_width, const float* entrance_x,
-                          const float* entrance_y, float entrance_width, int count, float* light) {
+                          const float* iris_width, const float* entrance_x, const float* entrance_y,
+                          float entrance_width, int count, float* light) {
     const auto& mask = *static_cast<const TracedMask*>(context);
     for (int k = 0; k < count; ++k) {
         if (light[k] <= 0) continue;

@@ -136,8 +136,8 @@ TracedMesh::TracedMesh(int side)
 std::size_t TracedMesh::bytes(int side) {
     const int sparse = sparse_side(side);
     return sizeof(float) * (kMeshFields * field_floats(side, side) +
-                            kMeshFields * field_floats(kFineSide, kFineSide) + field_floats(sparse, sparse) +
-                            field_floats(sparse, 1) +
+                            kMeshFields * field_floats(kFineSide, kFineSide) +
+                            field_floats(sparse, sparse) + field_floats(sparse, 1) +
                             kMaxPatches * kMeshFields * field_floats(kPatchColumns, kPatchRows));
 }
 
@@ -145,8 +145,8 @@ void TracedMesh::allocate(Mesh& mesh, int columns, int rows, float* memory) cons
     mesh.columns = columns;
     mesh.rows = rows;
     mesh.stride = ray_stride(columns);
-    float** const fields[kMeshFields] = {&mesh.x,     &mesh.y,      &mesh.u,
-                                         &mesh.v,     &mesh.clip,   &mesh.power,
+    float** const fields[kMeshFields] = {&mesh.x,      &mesh.y,        &mesh.u,
+                                         &mesh.v,      &mesh.clip,     &mesh.power,
                                          &mesh.smooth, &mesh.radiance, &mesh.share};
     for (float** field : fields) {
         *field = memory;
@@ -210,7 +210,8 @@ void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double s
         const SparsePlace across(j + row * step, kSparse, sparse_side_);
         for (int k = 0; k < sparse_side_; ++k) {
             float sum = 0;
-            for (int n = 0; n < 4; ++n) sum += across.weight[n] * sparse_[across.node[n] * stride + k];
+            for (int n = 0; n < 4; ++n)
+                sum += across.weight[n] * sparse_[across.node[n] * stride + k];
             sparse_row_[k] = scale * sum;
         }
         float* to = mesh.power + row * mesh.stride;
@@ -271,8 +272,8 @@ void TracedMesh::add_bounds(std::span<const MeshGroup> groups) noexcept {
     }
 }
 
-// Into how many parts cells are best divided: facets are smoothest if they are some pixels wide, and
-// what folds spoil of them is least.
+// Into how many parts cells are best divided: facets are smoothest if they are some pixels wide,
+// and what folds spoil of them is least.
 int TracedMesh::upsampling(int side) const noexcept {
     constexpr double kGoodFacetPx = 7;
     constexpr int kEvery = 3;  // rows looked at
@@ -376,7 +377,8 @@ void TracedMesh::draw_groups(const Mesh& mesh, std::span<const MeshGroup> groups
 
 void TracedMesh::draw(const MeshMask& mask, const MeshTile& tile) const noexcept {
     const std::span groups(groups_);
-    draw_groups(upsampled_ ? fine_ : grid_, groups.first(static_cast<std::size_t>(grid_groups_)), mask, tile);
+    draw_groups(upsampled_ ? fine_ : grid_, groups.first(static_cast<std::size_t>(grid_groups_)),
+                mask, tile);
     for (int k = 0; k < patch_count_; ++k) {
         const Patch& patch = patches_[static_cast<std::size_t>(k)];
         draw_groups(patch.mesh,

@@ -66,8 +66,8 @@ class TracedMesh {
     static constexpr int kMaxDepth = 3;
     static_assert(ray_stride(kPatchColumns) == kRayBlock);
 
-    // Where an index of the grid lies between sparse nodes: the four around it, and the weights of a
-    // cubic (Catmull & Rom 1974).
+    // Where an index of the grid lies between sparse nodes: the four around it, and the weights of
+    // a cubic (Catmull & Rom 1974).
     struct SparsePlace {
         int node[4] = {};
         float weight[4] = {};
@@ -87,8 +87,7 @@ class TracedMesh {
     void allocate(Mesh& mesh, int columns, int rows, float* memory) const;
     void trace(const MeshJob& job, Mesh& mesh, double i, double j, double step) noexcept;
     void trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept;
-    void interpolate_throughput(Mesh& mesh, double i, double j, double step,
-                                float scale) noexcept;
+    void interpolate_throughput(Mesh& mesh, double i, double j, double step, float scale) noexcept;
     void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
                 int depth) noexcept;
     int upsampling(int side) const noexcept;

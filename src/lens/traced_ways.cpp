@@ -45,8 +45,8 @@ RayStep TracedWays::step_at(const Step& step, std::size_t wavelength) const noex
     out.stretch = static_cast<float>(1 + face.conic);
     out.along_x = face.profile == Profile::kCylinderY ? 0.0F : 1.0F;
     out.along_y = face.profile == Profile::kCylinderX ? 0.0F : 1.0F;
-    out.index_ratio = static_cast<float>(step.backwards ? index[k + 1] / index[k]
-                                                        : index[k] / index[k + 1]);
+    out.index_ratio =
+        static_cast<float>(step.backwards ? index[k + 1] / index[k] : index[k] / index[k + 1]);
     out.per_semi_aperture = static_cast<float>(1 / face.semi_aperture_mm);
     const std::size_t terms = std::min<std::size_t>(face.asphere.size(), kMaxAsphereTerms);
     for (std::size_t i = 0; i < terms; ++i) {
@@ -72,8 +72,7 @@ std::span<const RayStep> TracedWays::way(int ghost, int wavelength,
         RayStep& out = scratch[k];
         out = step_at(steps[k], static_cast<std::size_t>(wavelength));
         const double next_mm = faces_[static_cast<std::size_t>(steps[k].face)].z_mm;
-        out.distance_mm =
-            static_cast<float>(steps[k].backwards ? z_mm - next_mm : next_mm - z_mm);
+        out.distance_mm = static_cast<float>(steps[k].backwards ? z_mm - next_mm : next_mm - z_mm);
         z_mm = next_mm;
         if (is_stop(steps[k])) out.stops_left = --stops_left;
     }

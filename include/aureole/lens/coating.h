@@ -2,8 +2,8 @@
 //
 // Exact for any stack of homogeneous lossless layers: the characteristic matrix of Abeles 1950
 // (Born & Wolf, "Principles of Optics", 7th ed., 1.6.4), with complex cosines, so that total
-// internal reflection gives 1 and never NaN. For one layer it equals the Airy form that the second
-// seed document prints. Transmission is 1 - reflectance: nothing is absorbed.
+// internal reflection gives 1 and never NaN. For one layer it equals the Airy form that the
+// blog prints. Transmission is 1 - reflectance: nothing is absorbed.
 #pragma once
 
 #include <span>
@@ -31,7 +31,7 @@ Reflectance reflectance(double index_front, double index_back, std::span<const L
                         double wavelength_nm, double cos_incidence);
 
 // A quarter wave at normal incidence: thickness lambda / (4 n), n = max(sqrt(n1 n2), 1.38), 1.38
-// being magnesium fluoride (the second seed document).
+// being magnesium fluoride (the blog).
 Coating quarter_wave(double index_front, double index_back, double design_nm);
 
 // What a name means on a face between air and glass:

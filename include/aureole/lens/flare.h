@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "aureole/base/progress.h"
 #include "aureole/image/image.h"
 #include "aureole/image/view.h"
 #include "aureole/lens/ghosts.h"
@@ -28,7 +29,8 @@ namespace aureole::lens {
 
 enum class GhostMethod {
     kMatrix,  // linear optics: each ghost is a projection of the iris, clipped by the apertures on
-              // its way, of even brightness (Lee & Eisemann 2013; the second seed document)
+              // its way, of even brightness (Lee & Eisemann 2013; the blog article
+              // "Implementation Notes: Physically Based Lens Flares", 2015, "the blog" below)
     kTraced,  // a grid of exact rays for each ghost and wavelength, finer at folds (Hullin et al.
               // 2011); irradiance from the area between neighbouring rays, folds summed
     kHybrid,  // matrix for as many ghosts as the tolerance allows, traced for the others
@@ -38,7 +40,7 @@ GhostMethod ghost_method_from_name(std::string_view name);
 
 enum class Look {
     kPhysical,
-    // The choices of the second seed document: intensity = ratio of the areas of the ghost's and
+    // The choices of the blog: intensity = ratio of the areas of the ghost's and
     // the lens's entrance pupil over the area of the quad on the sensor (in units of the image
     // circle's radius, 21.65 mm), colour = reflectance of the two faces for R, G, B at one random
     // angle per ghost, same-side ghosts, the entrance as the only clipping aperture, slopes taken
@@ -120,8 +122,10 @@ class Flare {
     Flare& operator=(Flare&&) noexcept;
 
     // Adds the ghosts of all lights to `out` (3 channels, the view's size). Never NaN. A light that
-    // the lens does not see adds nothing. Not to be run from two threads at once.
-    void render(std::span<const sources::Light> lights, const ImageView& out);
+    // the lens does not see adds nothing. Not to be run from two threads at once. Reports after
+    // each light; throws Cancelled between two, and `out` is then as it was.
+    void render(std::span<const sources::Light> lights, const ImageView& out,
+                Progress* progress = nullptr);
 
     // Of the last render().
     const FlareReport& report() const noexcept;

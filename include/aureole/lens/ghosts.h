@@ -18,7 +18,7 @@ struct Bounces {
 
 enum class GhostSet {
     kSameSide,  // both reflections in front of the stop or both behind it: the stop is crossed once
-                // (the second seed document)
+                // (the blog)
     kAll,       // every pair of refracting faces: n (n - 1) / 2
 };
 

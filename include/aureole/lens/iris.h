@@ -16,7 +16,7 @@ struct IrisShape {
     double rotation_deg = 0;  // 0: a corner points along +u
     double curvature = 0;     // of the blades: 0 straight, 1 the circle through the corners; [0, 1]
     double smoothing = 0;     // k of the polynomial smooth maximum that joins two blades at their
-                              // corner (the second seed document: .1); 0 keeps corners sharp;
+                              // corner (the blog: .1); 0 keeps corners sharp;
                               // [0, .5]
 };
 
