@@ -46,6 +46,16 @@ void render(benchmark::State& state, const char* name, double angle_deg,
     }
 }
 
+// Where all ghosts of a lens are and how bright, on one thread.
+void place(benchmark::State& state, int blades) {
+    const lens::Lens lens{lens::shipped_lens("nikon-28-75")};
+    const View view = view_of(lens);
+    lens::Flare flare(lens, lens::Iris({.blades = blades}), view,
+                      {.method = lens::GhostMethod::kMatrix});
+    const sources::Light light = light_at_angle(view, 10);
+    for (auto _ : state) benchmark::DoNotOptimize(flare.place(light).data());
+}
+
 // One thread of the exact tracer in double precision, with throughput.
 void plain_rays(benchmark::State& state) {
     const lens::Lens lens{lens::shipped_lens("biotar")};
@@ -86,6 +96,11 @@ void register_all() {
     add("matrix/nikon-28-75", "nikon-28-75", 10.0, with(GhostMethod::kMatrix, 0));
     add("traced/nikon-28-75", "nikon-28-75", 10.0, with(GhostMethod::kTraced, 1e-3));
     add("hybrid/nikon-28-75", "nikon-28-75", 10.0, with(GhostMethod::kHybrid, 1e-3));
+    for (const int blades : {0, 8}) {
+        benchmark::RegisterBenchmark(blades == 0 ? "place/round" : "place/blades", place, blades)
+            ->Unit(benchmark::kMicrosecond)
+            ->UseRealTime();
+    }
     benchmark::RegisterBenchmark("plain_rays", plain_rays)
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();

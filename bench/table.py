@@ -35,6 +35,8 @@ def medians(program, simd, rounds, only="."):
         if case.get("aggregate_name") == "median":
             name = case["run_name"].replace("/real_time", "").split("/min_time")[0]
             result[name] = case["real_time"]
+            if "rays" in case:
+                result[name + "/rays"] = case["rays"] / 1e6
     return result
 
 
@@ -95,6 +97,15 @@ def main():
     for bands, name in (("64", "64 bands"), ("0", "default bands")):
         row(f"eye PSF 1025x1025, {name}: times one FFTW transform",
             times[f"eye_psf/{bands}"] / fftw, "<= 6", ms(times[f"eye_psf/{bands}"], fftw))
+
+    flares = programs / "flare_bench"
+    times = medians(flares, options.simd, max(3, options.rounds // 3))
+    row("ghosts, traced: Biotar, 45 x 3 bands x 128^2 rays (ms)", times["traced/biotar"], "<= 200",
+        f"{times['traced/biotar/rays']:.0f} M rays/s, "
+        f"{times['traced/biotar/rays'] / times['plain_rays/rays']:.0f} x the plain tracer's")
+    row("ghosts, matrix: Nikon 28-75, 351 (ms)", times["matrix/nikon-28-75"], "<= 20")
+    row("  placement alone, round iris (us)", times["place/round"], "<= 30",
+        f"{times['place/blades']:.0f} us with 8 blades")
 
     for job, bar in (("convolution", "250"), ("eye-psf", "600")):
         run = subprocess.run([programs / "peak_memory", job], check=True, capture_output=True,

@@ -99,6 +99,7 @@ struct Flare::Impl {
             settings[static_cast<std::size_t>(found - list.begin())] = setting;
         }
         report.ghosts.resize(list.size());
+        for (const Bounces& bounces : list) placed.push_back({.bounces = bounces});
         by_matrix.reserve(list.size());
         by_rays.reserve(list.size());
     }
@@ -126,6 +127,7 @@ struct Flare::Impl {
     std::vector<GhostPlan> plans;
     std::vector<GhostComparison> comparisons;
     std::vector<GhostDraw> by_matrix, by_rays;
+    std::vector<GhostPlacement> placed;
     FlareReport report;
 };
 
@@ -240,6 +242,21 @@ void Flare::render(std::span<const sources::Light> lights, const ImageView& out,
         report.coarse_displaced /= energy;
     }
     flare.canvas.add_to(out);
+}
+
+std::span<const GhostPlacement> Flare::place(const sources::Light& light) noexcept {
+    impl_->matrix.place(light);
+    const auto placements = impl_->matrix.placements();
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+        const MatrixGhost& ghost = placements[i];
+        GhostPlacement& placed = impl_->placed[i];
+        placed.center_x = ghost.center_x;
+        placed.center_y = ghost.center_y;
+        placed.radius_x_px = ghost.u_per_px == 0 ? 0 : 1 / ghost.u_per_px;
+        placed.radius_y_px = ghost.v_per_px == 0 ? 0 : 1 / ghost.v_per_px;
+        placed.radiance = {ghost.radiance[0], ghost.radiance[1], ghost.radiance[2]};
+    }
+    return impl_->placed;
 }
 
 const FlareReport& Flare::report() const noexcept { return impl_->report; }

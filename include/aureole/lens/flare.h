@@ -102,6 +102,17 @@ struct GhostReport {
     double difference = -1;  // hybrid: estimated sum of |matrix - traced| over the ghost's energy
 };
 
+// Where linear optics puts a ghost, for callers that draw ghosts by themselves. What other apertures
+// cut away is not told.
+struct GhostPlacement {
+    Bounces bounces;
+    float center_x = 0, center_y = 0;  // of the projected iris, continuous pixel coordinates
+    // Of the projected iris, whose (u, v) = ((x - center_x) / radius_x, (y - center_y) / radius_y);
+    // negative: mirrored; 0: no light passes.
+    float radius_x_px = 0, radius_y_px = 0;
+    std::array<float, 3> radiance = {};  // inside; gains and tints are left out
+};
+
 struct FlareReport {
     std::vector<GhostReport> ghosts;
     double energy_dropped = 0;    // share, of the ghosts left out
@@ -126,6 +137,9 @@ class Flare {
     // each light; throws Cancelled between two, and `out` is then as it was.
     void render(std::span<const sources::Light> lights, const ImageView& out,
                 Progress* progress = nullptr);
+
+    // Of all ghosts, whatever the method; allocates nothing. Valid until the next call.
+    std::span<const GhostPlacement> place(const sources::Light& light) noexcept;
 
     // Of the last render().
     const FlareReport& report() const noexcept;
