@@ -102,8 +102,8 @@ struct GhostReport {
     double difference = -1;  // hybrid: estimated sum of |matrix - traced| over the ghost's energy
 };
 
-// Where linear optics puts a ghost, for callers that draw ghosts by themselves. What other apertures
-// cut away is not told.
+// Where linear optics puts a ghost, for callers that draw ghosts by themselves. What other
+// apertures cut away is not told.
 struct GhostPlacement {
     Bounces bounces;
     float center_x = 0, center_y = 0;  // of the projected iris, continuous pixel coordinates
