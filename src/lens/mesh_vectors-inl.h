@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, kGroup>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
+inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 
 HWY_INLINE V set(float value) { return hn::Set(D(), value); }
 HWY_INLINE V load(const float* from) { return hn::LoadU(D(), from); }
@@ -78,8 +78,8 @@ HWY_INLINE int pieces_for(float length_px, float per_px, float most) {
 // be smooth, they are at most half a pixel wide, and drawn twice as wide as they are: they overlap
 // evenly to 2 % of the brightness at most angles, 4 % at 45 deg. Large cells are pieces only where
 // they are so uneven that the pattern of wider pieces, up to 9 %, is lost in their gradient.
-constexpr float kPiecesPerPx = 2;
-constexpr float kCoarsePiecesPerPx = 1.4142F;
+inline constexpr float kPiecesPerPx = 2;
+inline constexpr float kCoarsePiecesPerPx = 1.4142F;
 
 }  // namespace
 }  // namespace aureole::lens::HWY_NAMESPACE
