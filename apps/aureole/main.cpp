@@ -57,7 +57,7 @@ int wrong_usage(const CLI::App& app, const std::string& message) {
 
 int run(int argc, char** argv) {
     CLI::App app(
-        "Physically-based glare and lens flares on linear HDR pictures.\n"
+        "Physically-based glare, lens flares and environment maps on linear HDR pictures.\n"
         "`aureole COMMAND --help` describes a command.",
         "aureole");
     app.set_version_flag("--version", "aureole " AUREOLE_VERSION);
@@ -65,7 +65,7 @@ int run(int argc, char** argv) {
 
     using namespace aureole::app;
     std::vector<Run> commands = {add_glare_command(app), add_flare_command(app),
-                                 add_lens_command(app), add_psf_command(app),
+                                 add_lens_command(app), add_ibl_command(app), add_psf_command(app),
                                  add_scene_command(app)};
     try {
         app.parse(argc, argv);
