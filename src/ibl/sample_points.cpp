@@ -53,15 +53,25 @@ SquarePoint hammersley(std::uint32_t index, std::uint32_t count) {
     return {static_cast<double>(index) / count, radical_inverse(index)};
 }
 
-SquarePoint sobol(std::uint32_t index) {
-    // Direction numbers of the primitive polynomial x + 1: rows of Pascal's triangle modulo 2.
-    std::uint32_t second = 0;
-    std::uint32_t direction = 0x80000000U;
-    for (std::uint32_t rest = index; rest != 0; rest >>= 1U) {
-        if ((rest & 1U) != 0) second ^= direction;
-        direction ^= direction >> 1U;
-    }
-    return {second * kPerBit32, radical_inverse(index)};
+// Digits of x are those of the index, from the top; digits of y are the same from the bottom. Let
+// the first half of the digits of x be rows 0, 1, 2, ... of Pascal's triangle modulo 2, applied to
+// the digits of `place`, and the first half of the digits of y rows -1, -2, ...  The first a and b
+// of them are a + b consecutive rows, whose first a + b columns have determinant 1 (Vandermonde's,
+// divided by factorials): so a + b digits of `place` say in which box a point is, and no two agree.
+std::uint32_t hammersley_index(std::uint32_t place, int digits) {
+    std::uint32_t index = 0;
+    const auto set_bit = [&](int bit, std::uint32_t row) {
+        // C(row, k) is odd when no digit of k is missing from row (Lucas' theorem).
+        unsigned parity = 0;
+        for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(digits); ++k) {
+            if ((k & ~row) == 0) parity ^= place >> k;
+        }
+        index |= (parity & 1U) << bit;
+    };
+    const int of_x = (digits + 1) / 2;
+    for (int a = 0; a < of_x; ++a) set_bit(digits - 1 - a, static_cast<std::uint32_t>(a));
+    for (int b = 0; b < digits - of_x; ++b) set_bit(b, ~static_cast<std::uint32_t>(b));
+    return index;
 }
 
 SquarePoint multi_jittered(std::uint32_t index, std::uint32_t count, std::uint32_t seed) {
