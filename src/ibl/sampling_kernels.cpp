@@ -184,16 +184,15 @@ HWY_INLINE void note(const Four& four, Notes& notes, int at) {
     hn::StoreU(four.bottom, d, notes.bottom + at);
 }
 
-// The same without the lanes outside of `kept`; how many were kept.
+// The same without the lanes outside of `kept`; how many were kept. CompressStore would write those
+// only, by masked stores that are many times slower on some machines; there is room for all.
 HWY_INLINE int note_some(const Four& four, M kept, Notes& notes, int at) {
-    const D d;
-    const DI di;
-    const auto kept_i = hn::RebindMask(di, kept);
-    hn::CompressStore(four.texel, kept_i, di, notes.texel + at);
-    hn::CompressStore(four.stride, kept_i, di, notes.stride + at);
-    hn::CompressStore(four.right, kept, d, notes.right + at);
-    hn::CompressStore(four.top, kept, d, notes.top + at);
-    return static_cast<int>(hn::CompressStore(four.bottom, kept, d, notes.bottom + at));
+    const auto kept_i = hn::RebindMask(DI(), kept);
+    note({hn::Compress(four.texel, kept_i), hn::Compress(four.stride, kept_i),
+          hn::Compress(four.right, kept), hn::Compress(four.top, kept),
+          hn::Compress(four.bottom, kept)},
+         notes, at);
+    return static_cast<int>(hn::CountTrue(D(), kept));
 }
 
 // Left texel in the lower half, right one in the upper; or both in turn where vectors are short,
@@ -432,9 +431,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace aureole::ibl {
 HWY_EXPORT(make_sampling_kernels);
-const SamplingKernels& sampling_kernels() {
-    static const SamplingKernels kernels = HWY_DYNAMIC_DISPATCH(make_sampling_kernels)();
-    return kernels;
-}
+SamplingKernels sampling_kernels() { return HWY_DYNAMIC_DISPATCH(make_sampling_kernels)(); }
 }  // namespace aureole::ibl
 #endif

@@ -43,6 +43,6 @@ struct SamplingKernels {
 };
 
 // Of the best instruction set that this machine has.
-const SamplingKernels& sampling_kernels();
+SamplingKernels sampling_kernels();
 
 }  // namespace aureole::ibl
