@@ -135,6 +135,19 @@ TEST(LobeTaps, AllHaveWeightAndTheirSumIsOne) {
     }
 }
 
+// With alpha = 1 light is spread evenly over the sphere by half vectors; Hammersley's points of odd
+// index fall below the horizon, but count for how far apart samples are.
+TEST(LobeTaps, LevelsCountTheSamplesThatWereReplaced) {
+    const FisLevel fis = {256, 9, 1, 0};
+    const auto taps = hammersley_taps(Lobe(1, LobeDensity::kHalfVector), 40, fis);
+    for (const LobeTap& tap : taps) {
+        const double sum =
+            static_cast<double>(tap.weights[0]) + static_cast<double>(tap.weights[1]);
+        EXPECT_NEAR(tap.level + static_cast<double>(tap.weights[1]) / sum,
+                    fis.of(1 / (4 * kPi), 79), 1e-5);
+    }
+}
+
 // A sample of an even density over the sphere covers 1/n of it: the level at which that is a texel.
 TEST(LobeTaps, LevelsFollowFromSolidAngles) {
     const double even = 1 / (4 * kPi);
