@@ -1,53 +1,25 @@
 #include "aureole/ibl/prefilter.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "aureole/ibl/roughness.h"
+#include "ibl/filter_options.h"
 #include "ibl/level_filter.h"
 #include "ibl/shrink.h"
 
 namespace aureole::ibl {
 namespace {
 
-constexpr int kMostSamples = 65536;
 constexpr int kReferenceSamples = 1024;
 constexpr int kSamples = 32;
 
 void check(int size, const PrefilterOptions& options) {
-    if (size < 1 || size > 16384) {
-        throw InvalidArgument("size", std::to_string(size), "must be in [1, 16384]");
-    }
-    const int levels = static_cast<int>(options.roughness.size());
-    if (levels < 1 || levels > most_levels(size)) {
-        throw InvalidArgument("levels", std::to_string(levels),
-                              fmt::format("an environment of {} texels per side has 1 to {} levels",
-                                          size, most_levels(size)));
-    }
-    for (const double roughness : options.roughness) {
-        if (!(roughness >= 0 && roughness <= 1)) {
-            throw InvalidArgument("roughness", fmt::format("{}", roughness), "must be in [0, 1]");
-        }
-    }
-    for (const int samples : options.samples) {
-        if (samples < 1 || samples > kMostSamples) {
-            throw InvalidArgument("samples", std::to_string(samples),
-                                  fmt::format("must be in [1, {}]", kMostSamples));
-        }
-    }
-    if (!(options.fis_overlap > 0) || !std::isfinite(options.fis_overlap)) {
-        throw InvalidArgument("fis_overlap", fmt::format("{}", options.fis_overlap),
-                              "must be a positive number");
-    }
-    if (!std::isfinite(options.fis_bias)) {
-        throw InvalidArgument("fis_bias", fmt::format("{}", options.fis_bias),
-                              "must be a finite number");
-    }
+    check_levels(size, options.roughness);
+    for (const int samples : options.samples) check_count("samples", samples, kMostSamples);
+    check_fis(options.fis_overlap, options.fis_bias);
 }
 
 int samples_of(const PrefilterOptions& options, std::size_t level) {
