@@ -1,5 +1,6 @@
 // Which instruction sets the kernels of ibl are compiled for; include before hwy/highway.h.
-// On x86: the scalar baseline, SSSE3, AVX2 + FMA and AVX-512; NEON on ARM.
+// On x86: the scalar baseline, SSSE3, AVX2 + FMA and AVX-512; NEON on ARM. SSE4 and AVX-512's
+// later extensions gain nothing here.
 #pragma once
 
 #include <hwy/detect_targets.h>
