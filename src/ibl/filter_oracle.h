@@ -1,0 +1,128 @@
+// The truth that filters are tested against: the weight of prefilter.h summed over every texel of
+// an environment in double precision, each texel being a square of constant radiance. Far from the
+// lobe a texel counts with its middle, near it with Gauss points in up to 16 x 16 parts.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "aureole/ibl/cube_map.h"
+
+namespace aureole::ibl {
+
+class FilterOracle {
+  public:
+    explicit FilterOracle(const CubeMap& environment)
+        : environment_(&environment), size_(environment.size()) {
+        for (int face = 0; face < kFaces; ++face) {
+            for (int y = 0; y < size_; y += kPatchSide) {
+                for (int x = 0; x < size_; x += kPatchSide) add_patch(face, x, y);
+            }
+        }
+    }
+
+    // P(N, alpha) of prefilter.h.
+    std::array<double, 3> filtered(const Direction& n, double alpha) const {
+        const double a2 = alpha * alpha;
+        const auto weight = [&](double cosine) {
+            const double q = 1 - (1 - a2) * (1 + cosine) / 2;
+            return std::max(cosine, 0.0) / (q * q);
+        };
+        std::array<double, 4> sum = {};
+        for (const Patch& patch : patches_) {
+            const double texel = 4.0 / (size_ * static_cast<double>(size_)) / 6;  // its spread
+            const double gap =
+                std::max(0.0, std::sqrt(2 - 2 * dot(n, patch.middle)) - patch.radius);
+            if (texel < kFar * (a2 + (1 - a2) * gap * gap / 4)) {
+                for (std::size_t i = patch.first; i < patch.end; ++i) {
+                    const double w = solid_angle_[i] *
+                                     weight(n.x * x_[i] + n.y * y_[i] + n.z * z_[i]);
+                    for (std::size_t c = 0; c < 3; ++c) sum[c] += w * radiance_[c][i];
+                    sum[3] += w;
+                }
+                continue;
+            }
+            for (std::size_t i = patch.first; i < patch.end; ++i) {
+                const double cosine = n.x * x_[i] + n.y * y_[i] + n.z * z_[i];
+                const double relative = texel / (1 - (1 - a2) * (1 + cosine) / 2);
+                const int parts = relative < 2e-3 ? 1 : relative < 1e-2 ? 2 : relative < .2 ? 6 : 16;
+                const double w = near_weight(patch, static_cast<int>(i - patch.first), parts, n,
+                                             weight);
+                for (std::size_t c = 0; c < 3; ++c) sum[c] += w * radiance_[c][i];
+                sum[3] += w;
+            }
+        }
+        return {sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]};
+    }
+
+  private:
+    static constexpr int kPatchSide = 8;
+    // Largest spread of a texel, relative to the lobe, at which its middle stands for all of it:
+    // the neglected part of its weight is about as large.
+    static constexpr double kFar = 4e-5;
+
+    struct Patch {
+        int face, x, y, width;
+        std::size_t first, end;
+        Direction middle;
+        double radius;
+    };
+
+    void add_patch(int face, int x0, int y0) {
+        Patch patch{face, x0, y0, std::min(kPatchSide, size_ - x0), x_.size(), 0, {}, 0};
+        const int height = std::min(kPatchSide, size_ - y0);
+        patch.middle = texel_direction(face, x0 + 0.5 * (patch.width - 1), y0 + 0.5 * (height - 1),
+                                       size_);
+        for (int y = y0; y < y0 + height; ++y) {
+            for (int x = x0; x < x0 + patch.width; ++x) {
+                const Direction d = texel_direction(face, x, y, size_);
+                x_.push_back(d.x);
+                y_.push_back(d.y);
+                z_.push_back(d.z);
+                solid_angle_.push_back(texel_solid_angle_sr(x, y, size_));
+                for (int c = 0; c < 3; ++c) {
+                    radiance_[static_cast<std::size_t>(c)].push_back(
+                        environment_->at(face, x, y, c));
+                }
+                patch.radius =
+                    std::max(patch.radius, std::sqrt(2 - 2 * std::min(1.0, dot(d, patch.middle))));
+            }
+        }
+        patch.end = x_.size();
+        patches_.push_back(patch);
+    }
+
+    template <class Weight>
+    double near_weight(const Patch& patch, int index, int parts, const Direction& n,
+                       const Weight& weight) const {
+        const int x = patch.x + index % patch.width;
+        const int y = patch.y + index / patch.width;
+        const double step = 2.0 / (size_ * parts);
+        double sum = 0;
+        for (int v = 0; v < 2 * parts; ++v) {
+            for (int u = 0; u < 2 * parts; ++u) {
+                const auto gauss = [&](int texel, int k) {  // two points per part
+                    return 2.0 * texel / size_ - 1 +
+                           step * (k / 2 + 0.5 + (k % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.0));
+                };
+                const double s = gauss(x, u);
+                const double t = gauss(y, v);
+                const double h = 1 + s * s + t * t;
+                sum += step * step / 4 / (h * std::sqrt(h)) *
+                       weight(dot(n, direction_of({patch.face, s, t})));
+            }
+        }
+        return sum;
+    }
+
+    const CubeMap* environment_;
+    int size_;
+    std::vector<Patch> patches_;
+    std::vector<double> x_, y_, z_, solid_angle_;
+    std::array<std::vector<double>, 3> radiance_;
+};
+
+}  // namespace aureole::ibl

@@ -1,0 +1,68 @@
+// An environment as a quad-tree on each face whose nodes know where their light comes from and how
+// far it is spread: what a kernel needs to treat a node as a whole, to second order.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "aureole/base/buffer.h"
+#include "aureole/ibl/cube_map.h"
+
+namespace aureole::ibl {
+
+// Four nodes side by side: (0, 0), (1, 0), (0, 1), (1, 1) of a square. They are the children of one
+// node of the level above. Nodes beyond the edge of a face cover no solid angle.
+//
+// c = (x, y, z) is the mean of the unit vectors of a node's light, weighted by the absolute value
+// of its luminance, and not normalised; moment = mean |L - c|^2 = 1 - |c|^2.
+struct alignas(64) RadianceBlock {
+    float x[4];
+    float y[4];
+    float z[4];
+    float moment[4];
+    float r[4];  // radiance x solid angle, summed
+    float g[4];
+    float b[4];
+    float solid_angle_sr[4];
+};
+static_assert(sizeof(RadianceBlock) == 128);
+
+// Luminance of linear sRGB.
+inline constexpr std::array<float, 3> kLuminanceWeights = {0.2126F, 0.7152F, 0.0722F};
+
+// The blocks of one level: per_side x per_side on each face, row by row, face by face.
+struct RadianceLevel {
+    RadianceBlock* blocks = nullptr;
+    int nodes_per_side = 0;
+    int per_side = 0;
+
+    RadianceBlock* row(int face, int y) const {
+        return blocks + static_cast<std::size_t>(face * per_side + y) *
+                            static_cast<std::size_t>(per_side);
+    }
+};
+
+class RadianceTree {
+  public:
+    // For environments of `size` texels per side. Small ones are divided into smaller texels, so
+    // that every texel is small compared with the sphere.
+    explicit RadianceTree(int size);
+
+    // Fills all nodes. `environment` is finite and of that size. Runs parallel loops.
+    void build(const CubeMap& environment) noexcept;
+
+    // Level 0 has the texels; the last one at most 4 x 4 nodes per face.
+    const std::vector<RadianceLevel>& levels() const noexcept { return levels_; }
+    // Mean over the sphere of the absolute value of each texel's luminance.
+    double mean_luminance() const noexcept { return mean_luminance_; }
+
+  private:
+    int subdivision_ = 1;
+    std::vector<std::vector<RadianceBlock, AlignedAllocator<RadianceBlock>>> storage_;
+    std::vector<RadianceLevel> levels_;
+    double mean_luminance_ = 0;
+};
+
+}  // namespace aureole::ibl
