@@ -34,7 +34,8 @@ enum Place : std::size_t {
 constexpr std::size_t kLegacyBytes = 128;
 constexpr std::size_t kDx10Bytes = 148;
 
-constexpr std::uint32_t kHeaderFlags = 0x1 | 0x2 | 0x4 | 0x8 | 0x1000;  // caps, sides, pitch, format
+constexpr std::uint32_t kHeaderFlags =
+    0x1 | 0x2 | 0x4 | 0x8 | 0x1000;  // caps, sides, pitch, format
 constexpr std::uint32_t kHasLevels = 0x20000;
 constexpr std::uint32_t kPixelsFourCc = 0x4;
 constexpr std::uint32_t kPixelsRgb = 0x40;
@@ -73,10 +74,11 @@ TexelLayout dx10_layout(const TextureFile& file, std::uint32_t dxgi) {
     for (const NamedLayout& named : kNamedLayouts) {
         if (named.dxgi == dxgi && dxgi != 0) return named.layout;
     }
-    file.fail(fmt::format("DXGI format {}{}: only RGBA16F (10), RGBA32F (2), RGB32F (6), RG16F "
-                          "(34), RG32F (16), R11G11B10 (26), RGB9E5 (67) and 8-bit RGBA or BGRA "
-                          "(28, 29, 87, 88, 91, 93) are read",
-                          dxgi, compressed_name(dxgi)));
+    file.fail(
+        fmt::format("DXGI format {}{}: only RGBA16F (10), RGBA32F (2), RGB32F (6), RG16F "
+                    "(34), RG32F (16), R11G11B10 (26), RGB9E5 (67) and 8-bit RGBA or BGRA "
+                    "(28, 29, 87, 88, 91, 93) are read",
+                    dxgi, compressed_name(dxgi)));
 }
 
 // Direct3D 9's numbers of its floating-point formats stand where others have four characters.
@@ -94,9 +96,10 @@ TexelLayout legacy_layout(const TextureFile& file, const std::string& header) {
             case 116:  // A32B32G32R32F
                 return {Sample::kFloat, 4, 4};
             default:
-                file.fail(fmt::format("pixel format {}: only DX10, 112, 113, 115, 116 (floats) and "
-                                      "uncompressed 8-bit RGB are read",
-                                      four_characters(code)));
+                file.fail(
+                    fmt::format("pixel format {}: only DX10, 112, 113, 115, 116 (floats) and "
+                                "uncompressed 8-bit RGB are read",
+                                four_characters(code)));
         }
     }
     const std::uint32_t bits = u32_at(header, kBits);
@@ -107,9 +110,10 @@ TexelLayout legacy_layout(const TextureFile& file, const std::string& header) {
                               u32_at(header, kRedMask + 4) == 0xff00U &&
                               u32_at(header, kRedMask + 8) == (red ^ 0xff00ffU);
     if ((flags & kPixelsRgb) == 0 || (bits != 24 && bits != 32) || !known_alpha || !known_colour) {
-        file.fail(fmt::format("pixel format of {} bits with red mask {:#x}: only 8 bits each of R, "
-                              "G, B and alpha are read",
-                              bits, red));
+        file.fail(
+            fmt::format("pixel format of {} bits with red mask {:#x}: only 8 bits each of R, "
+                        "G, B and alpha are read",
+                        bits, red));
     }
     return {Sample::kSrgbByte, alpha ? 4 : 3, bits == 32 ? 4 : 3, red != 0xffU};
 }
@@ -130,8 +134,8 @@ std::string dds_header(const StoredTexture& stored, const NamedLayout& layout) {
     put(bytes, kPixelFormatSize, 32);
     put(bytes, kPixelFlags, kPixelsFourCc);
     put(bytes, kFourCc, kDx10);
-    put(bytes, kCaps2 - 4, kCapsTexture | (cube || chain ? kCapsComplex : 0) |
-                               (chain ? kCapsMipmap : 0));
+    put(bytes, kCaps2 - 4,
+        kCapsTexture | (cube || chain ? kCapsComplex : 0) | (chain ? kCapsMipmap : 0));
     put(bytes, kCaps2, cube ? kCaps2Cube | kCaps2AllFaces : 0);
     put(bytes, kDxgiFormat, layout.dxgi);
     put(bytes, kDimension, kTexture2d);
@@ -155,8 +159,8 @@ StoredTexture parse_dds(const TextureFile& file) {
     stored.levels = std::max(1U, u32_at(header, kLevels));
     const std::uint32_t caps2 = u32_at(header, kCaps2);
     if ((caps2 & kCaps2Volume) != 0) file.fail("is a volume, not a picture or cube map");
-    const bool dx10 = (u32_at(header, kPixelFlags) & kPixelsFourCc) != 0 &&
-                      u32_at(header, kFourCc) == kDx10;
+    const bool dx10 =
+        (u32_at(header, kPixelFlags) & kPixelsFourCc) != 0 && u32_at(header, kFourCc) == kDx10;
     std::uint64_t offset = kLegacyBytes;
     bool cube = (caps2 & kCaps2Cube) != 0;
     if (dx10) {
@@ -165,8 +169,8 @@ StoredTexture parse_dds(const TextureFile& file) {
         cube = (u32_at(header, kMisc) & kMiscCube) != 0;
         const std::uint32_t dimension = u32_at(header, kDimension);
         if (dimension != kTexture2d) {
-            file.fail(fmt::format("DDS resource dimension {}: must be 3 (two-dimensional)",
-                                  dimension));
+            file.fail(
+                fmt::format("DDS resource dimension {}: must be 3 (two-dimensional)", dimension));
         }
         const std::uint32_t array = u32_at(header, kArraySize);
         if (array > 1) {  // some writers leave it 0

@@ -93,8 +93,8 @@ FileSet::FileSet(const std::string& folder) : folder_(folder) {
     if (::mkdir(staging.c_str(), 0777) != 0 || ::mkdir((staging / kNew).c_str(), 0777) != 0) {
         const int reason = errno;
         ::rmdir(staging.c_str());
-        throw FileError(
-            folder, "cannot be written in folder " + parent.string() + ": " + std::strerror(reason));
+        throw FileError(folder, "cannot be written in folder " + parent.string() + ": " +
+                                    std::strerror(reason));
     }
     staging_ = staging.string();
 }

@@ -77,9 +77,10 @@ StoredTexture parse_ktx1(const TextureFile& file) {
     const std::string header = file.read(0, kHeaderBytes, "the header");
     const std::uint32_t order = u32_at(header, 12);
     if (order != 0x04030201U && order != 0x01020304U) {
-        file.fail(fmt::format("damaged KTX file: byte order {:#010x}, must be 0x04030201 or "
-                              "0x01020304",
-                              order));
+        file.fail(
+            fmt::format("damaged KTX file: byte order {:#010x}, must be 0x04030201 or "
+                        "0x01020304",
+                        order));
     }
     const bool swap = order == 0x01020304U;
     const auto word = [&](std::string_view bytes, std::size_t at) {

@@ -66,10 +66,10 @@ std::vector<DescribedBits> described_bits(const TexelLayout& texel) {
 }
 
 std::string descriptor(const TexelLayout& texel) {
-    constexpr std::uint32_t kRgbModel = 1;      // RGBSDA
-    constexpr std::uint32_t kRec709 = 1;        // primaries
-    constexpr std::uint32_t kLinear = 1;        // transfer function
-    constexpr std::uint32_t kVersion1_3 = 2;    // of the specification
+    constexpr std::uint32_t kRgbModel = 1;    // RGBSDA
+    constexpr std::uint32_t kRec709 = 1;      // primaries
+    constexpr std::uint32_t kLinear = 1;      // transfer function
+    constexpr std::uint32_t kVersion1_3 = 2;  // of the specification
     const std::vector<DescribedBits> bits = described_bits(texel);
     const auto size = static_cast<std::uint32_t>(24 + 16 * bits.size());
     std::string bytes;
@@ -92,8 +92,8 @@ std::string descriptor(const TexelLayout& texel) {
 // Sorted by key, as the specification demands; each padded to four bytes.
 std::string metadata() {
     std::string bytes;
-    for (const auto& [key, value] : {std::pair<std::string, std::string>{"KTXorientation", "rd"},
-                                     {"KTXwriter", "Aureole"}}) {
+    for (const auto& [key, value] :
+         {std::pair<std::string, std::string>{"KTXorientation", "rd"}, {"KTXwriter", "Aureole"}}) {
         append32(bytes, static_cast<std::uint32_t>(key.size() + value.size() + 2));
         bytes += key + '\0' + value + '\0';
         bytes.resize((bytes.size() + 3) / 4 * 4);
@@ -124,7 +124,8 @@ std::string ktx2_header(const StoredTexture& stored, const NamedLayout& layout,
                         std::vector<std::uint64_t>& offsets) {
     const std::string format = descriptor(layout.layout);
     const std::string pairs = metadata();
-    const auto format_offset = static_cast<std::uint32_t>(kHeaderBytes + kIndexBytes * stored.levels);
+    const auto format_offset =
+        static_cast<std::uint32_t>(kHeaderBytes + kIndexBytes * stored.levels);
     const auto pairs_offset = static_cast<std::uint32_t>(format_offset + format.size());
 
     // Each level starts at a multiple of both its texels' size and 4.

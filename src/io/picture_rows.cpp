@@ -41,7 +41,7 @@ struct PictureRows::Impl {
     ColorChannels channels;         // as places in `band`
     int first_channel = 0;          // of the file, of `band`
     int band_channels = 0;
-    Image band;          // decoded rows [band_begin, band_end) of the file
+    Image band;  // decoded rows [band_begin, band_end) of the file
     int band_begin = 0;
     int band_end = 0;
 };
@@ -100,9 +100,10 @@ void PictureRows::read(int first_row, int count, const ImageView& out) {
                               fmt::format("the picture has {}", height()));
     }
     if (out.width != width() || out.height != count || out.channels != 3) {
-        throw InvalidArgument("image for rows",
-                              fmt::format("{}x{}, {} channels", out.width, out.height, out.channels),
-                              fmt::format("must be {}x{}, 3 channels", width(), count));
+        throw InvalidArgument(
+            "image for rows",
+            fmt::format("{}x{}, {} channels", out.width, out.height, out.channels),
+            fmt::format("must be {}x{}, 3 channels", width(), count));
     }
     for (int y = 0; y < count; ++y) {
         const int row = first_row + y;
@@ -110,8 +111,8 @@ void PictureRows::read(int first_row, int count, const ImageView& out) {
         for (int c = 0; c < 3; ++c) {
             const float* from = nullptr;
             if (impl_->turned) {
-                from = impl_->turned->image().row(
-                    row, std::min(c, impl_->turned->color_channels() - 1));
+                from = impl_->turned->image().row(row,
+                                                  std::min(c, impl_->turned->color_channels() - 1));
             } else {
                 const auto& color = impl_->channels.color;
                 const auto index = std::min(static_cast<std::size_t>(c), color.size() - 1);

@@ -136,8 +136,9 @@ void TextureFile::read(std::uint64_t offset, std::size_t size, void* to,
     while (size > 0) {
         const ssize_t got = ::pread(descriptor_, bytes, size, static_cast<off_t>(offset));
         if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) fail(std::string("cannot be read: ") + (got < 0 ? std::strerror(errno)
-                                                                       : "it became shorter"));
+        if (got <= 0)
+            fail(std::string("cannot be read: ") +
+                 (got < 0 ? std::strerror(errno) : "it became shorter"));
         bytes += got;
         offset += static_cast<std::uint64_t>(got);
         size -= static_cast<std::size_t>(got);

@@ -24,7 +24,8 @@ constexpr std::array<int, 3> kPackedMantissa = {6, 6, 5};
 constexpr std::array<unsigned, 3> kPackedShift = {0, 11, 22};
 
 constexpr float largest_small_float(int mantissa_bits) {
-    return 32768.0F * (2.0F - 1.0F / static_cast<float>(1U << static_cast<unsigned>(mantissa_bits)));
+    return 32768.0F *
+           (2.0F - 1.0F / static_cast<float>(1U << static_cast<unsigned>(mantissa_bits)));
 }
 static_assert(largest_small_float(kHalfMantissa) == 65504.0F);
 
@@ -206,7 +207,8 @@ void encode_row(const TexelLayout& layout, const Image& image, int y, std::byte*
                 rgb[static_cast<std::size_t>(c)] =
                     clamped(image.row(y, c)[x], range_of(layout.sample, c), report);
             }
-            store(bytes, layout.sample == Sample::kRgb9e5 ? encode_shared(rgb) : encode_packed(rgb));
+            store(bytes,
+                  layout.sample == Sample::kRgb9e5 ? encode_shared(rgb) : encode_packed(rgb));
         }
         return;
     }
@@ -238,7 +240,8 @@ void decode_row(const TexelLayout& layout, const std::byte* bytes, Image& image,
     }
     for (int c = 0; c < layout.channels; ++c) {
         const int place = layout.blue_first && c < 3 ? 2 - c : c;
-        const std::byte* from = bytes + sample_bytes(layout.sample) * static_cast<std::size_t>(place);
+        const std::byte* from =
+            bytes + sample_bytes(layout.sample) * static_cast<std::size_t>(place);
         float* row = image.row(y, c);
         for (int x = 0; x < image.width(); ++x, from += pitch) {
             row[x] = decode_sample(layout.sample, from, c == 3);

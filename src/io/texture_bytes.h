@@ -47,9 +47,7 @@ struct TextureBytes {
         }
         return value;
     }
-    std::uint32_t word(std::uint64_t at) const {
-        return static_cast<std::uint32_t>(number(at, 4));
-    }
+    std::uint32_t word(std::uint64_t at) const { return static_cast<std::uint32_t>(number(at, 4)); }
     static std::uint32_t side(std::uint32_t base, unsigned level) {
         for (unsigned i = 0; i < level; ++i) base /= 2;
         return base == 0 ? 1 : base;
@@ -76,8 +74,8 @@ struct TextureBytes {
 
     // The channels of a texel.
     std::vector<double> texel(unsigned level, unsigned face, unsigned x, unsigned y) const {
-        const std::uint64_t at = places.at({level, face}) +
-                                 (std::uint64_t{y} * side(width, level) + x) * texel_bytes;
+        const std::uint64_t at =
+            places.at({level, face}) + (std::uint64_t{y} * side(width, level) + x) * texel_bytes;
         std::vector<double> channels;
         for (const Bits& run : bits) {
             std::uint64_t code = 0;
@@ -88,8 +86,8 @@ struct TextureBytes {
             }
             if (run.channel >= channels.size()) channels.resize(run.channel + 1);
             if (run.is_exponent) {  // of a mantissa that came before it
-                channels[run.channel] = std::ldexp(channels[run.channel],
-                                                   static_cast<int>(code) - 15 - 9);
+                channels[run.channel] =
+                    std::ldexp(channels[run.channel], static_cast<int>(code) - 15 - 9);
             } else if (run.is_float) {
                 channels[run.channel] = real(code, run.count, run.is_signed);
             } else {
@@ -108,8 +106,9 @@ struct TextureBytes {
         return {{0, 11, 0, false, true}, {11, 11, 1, false, true}, {22, 10, 2, false, true}};
     }
     static std::vector<Bits> shared() {
-        return {{0, 9, 0}, {27, 5, 0, false, false, true}, {9, 9, 1},
-                {27, 5, 1, false, false, true}, {18, 9, 2}, {27, 5, 2, false, false, true}};
+        return {{0, 9, 0},  {27, 5, 0, false, false, true},
+                {9, 9, 1},  {27, 5, 1, false, false, true},
+                {18, 9, 2}, {27, 5, 2, false, false, true}};
     }
 
     static TextureBytes dds(const std::string& file) {
@@ -210,8 +209,11 @@ struct TextureBytes {
             const std::uint32_t channel = first >> 24 & 15;
             const std::uint32_t lower = word(s + 8);
             const std::uint32_t upper = word(s + 12);
-            Bits run{first & 0xffff, (first >> 16 & 255) + 1, channel == 15 ? 3 : channel,
-                     (first >> 24 & 0x40) != 0, (first >> 24 & 0x80) != 0,
+            Bits run{first & 0xffff,
+                     (first >> 16 & 255) + 1,
+                     channel == 15 ? 3 : channel,
+                     (first >> 24 & 0x40) != 0,
+                     (first >> 24 & 0x80) != 0,
                      (first >> 24 & 0x20) != 0};
             demand((first >> 24 & 0x10) == 0 && word(s + 4) == 0, "qualifier, sample position");
             if (run.is_float) {

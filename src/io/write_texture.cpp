@@ -1,6 +1,6 @@
+#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
-#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <bit>
 #include <cstdint>

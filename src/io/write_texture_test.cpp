@@ -60,7 +60,8 @@ std::vector<double> expected(TexelFormat format, const Image& image, int x, int 
     }
     for (std::size_t c = 0; c < values.size(); ++c) {
         if (format == TexelFormat::kHalf) values[c] = nearest(values[c], 16, true);
-        if (format == TexelFormat::kR11G11B10) values[c] = nearest(values[c], c == 2 ? 10 : 11, false);
+        if (format == TexelFormat::kR11G11B10)
+            values[c] = nearest(values[c], c == 2 ? 10 : 11, false);
     }
     const bool filled = format == TexelFormat::kHalf || format == TexelFormat::kFloat;
     if (filled && values.size() == 3) values.push_back(1);
@@ -120,8 +121,7 @@ TEST(WriteTexture, EveryFormatIsWhatTheSpecificationsSay) {
             continue;
         }
         for (const TexelFormat format : kFormats) {
-            const bool packed =
-                format == TexelFormat::kR11G11B10 || format == TexelFormat::kRgb9e5;
+            const bool packed = format == TexelFormat::kR11G11B10 || format == TexelFormat::kRgb9e5;
             for (const int channels : {2, 3, 4}) {
                 if (packed && channels != 3) continue;
                 for (const Texture& texture :
@@ -148,9 +148,9 @@ TEST(WriteTexture, RoundsToNearestAndTiesToEven) {
             for (int c = 0; c < 3; ++c) {
                 const unsigned count = half ? 16 : c == 2 ? 10 : 11;
                 const unsigned here = count == 10 ? code / 2 : code;
-                const auto middle = static_cast<float>(
-                    (TextureBytes::real(here, count, half) +
-                     TextureBytes::real(here + 1, count, half)) / 2);
+                const auto middle = static_cast<float>((TextureBytes::real(here, count, half) +
+                                                        TextureBytes::real(here + 1, count, half)) /
+                                                       2);
                 const float sign = half && code % 3 == 0 ? -1 : 1;
                 const int x = static_cast<int>(code / 64);
                 const int y = static_cast<int>(code % 64) * 3;
@@ -205,8 +205,8 @@ TEST(WriteTexture, WhatTheFormatCannotHoldIsClampedAndCounted) {
     Texture texture;
     texture.levels.emplace_back(2, 2, 3);
     Image& image = texture.levels[0];
-    const float samples[4][3] = {{2e6F, -2e6F, NAN}, {-INFINITY, 1, 2}, {0, INFINITY, -0.5F},
-                                 {65024, 65024, 64512}};
+    const float samples[4][3] = {
+        {2e6F, -2e6F, NAN}, {-INFINITY, 1, 2}, {0, INFINITY, -0.5F}, {65024, 65024, 64512}};
     for (int i = 0; i < 4; ++i) {
         for (int c = 0; c < 3; ++c) image.at(i % 2, i / 2, c) = samples[i][c];
     }
@@ -222,8 +222,9 @@ TEST(WriteTexture, WhatTheFormatCannotHoldIsClampedAndCounted) {
             const TextureBytes file = parsed(folder.file(name));
             const bool is_float = c.format == TexelFormat::kFloat;
             EXPECT_EQ(file.texel(0, 0, 0, 0)[0], is_float ? 2e6 : c.largest[0]);
-            EXPECT_EQ(file.texel(0, 0, 0, 0)[1],
-                      c.negative > 0 ? 0 : is_float ? -2e6 : -c.largest[0]);
+            EXPECT_EQ(file.texel(0, 0, 0, 0)[1], c.negative > 0 ? 0
+                                                 : is_float     ? -2e6
+                                                                : -c.largest[0]);
             EXPECT_EQ(file.texel(0, 0, 0, 0)[2], 0);
             EXPECT_EQ(file.texel(0, 0, 1, 0)[0], c.negative > 0 ? 0 : -c.largest[0]);
             EXPECT_EQ(file.texel(0, 0, 0, 1)[1], c.largest[1]);

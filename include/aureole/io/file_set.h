@@ -11,8 +11,8 @@
 namespace aureole::io {
 
 // Files are written into a hidden folder and moved when all are there: beside the target,
-// ".NAME.PID-N.tmp", if the target does not exist, and inside it if it does, so that they are on the
-// same file system and need no other permission than the target itself gives.
+// ".NAME.PID-N.tmp", if the target does not exist, and inside it if it does, so that they are on
+// the same file system and need no other permission than the target itself gives.
 //
 // What is promised. If the target did not exist, it appears whole by one rename. If it did, each
 // file replaces one of its name by a rename, so that no reader ever sees half a file or none, but

@@ -13,14 +13,14 @@
 
 namespace aureole::io {
 
-// The colour of any file that read_picture() reads, the same bits as its Picture::color(), but three
-// channels always: grey is spread over them.
+// The colour of any file that read_picture() reads, the same bits as its Picture::color(), but
+// three channels always: grey is spread over them.
 //
 // Memory: the samples of 32 rows of the file, or of the rows of one tile where these are more, in
 // the colour channels and those between them; some 20 MB for 16384 pixels of RGB. What decoders
-// need comes on top: one block per thread of EXR, which is up to 256 rows with DWAB compression; the
-// whole picture, as bytes, for interlaced PNG and as coefficients for progressive JPEG. A picture
-// that its Exif orientation turns is held whole.
+// need comes on top: one block per thread of EXR, which is up to 256 rows with DWAB compression;
+// the whole picture, as bytes, for interlaced PNG and as coefficients for progressive JPEG. A
+// picture that its Exif orientation turns is held whole.
 //
 // Not for several threads at once.
 class PictureRows {
