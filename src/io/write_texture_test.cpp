@@ -52,8 +52,10 @@ std::array<double, 3> nearest_shared(const std::array<double, 3>& rgb) {
 }
 
 std::vector<double> expected(TexelFormat format, const Image& image, int x, int y) {
-    std::vector<double> values;
-    for (int c = 0; c < image.channels(); ++c) values.push_back(double{image.at(x, y, c)});
+    std::vector<double> values(static_cast<std::size_t>(image.channels()));
+    for (int c = 0; c < image.channels(); ++c) {
+        values[static_cast<std::size_t>(c)] = double{image.at(x, y, c)};
+    }
     if (format == TexelFormat::kRgb9e5) {
         const auto shared = nearest_shared({values[0], values[1], values[2]});
         return {shared.begin(), shared.end()};
