@@ -5,9 +5,8 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <numeric>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/texture_container.h"
@@ -128,8 +127,8 @@ std::string ktx2_header(const StoredTexture& stored, const NamedLayout& layout,
         static_cast<std::uint32_t>(kHeaderBytes + kIndexBytes * stored.levels);
     const auto pairs_offset = static_cast<std::uint32_t>(format_offset + format.size());
 
-    // Each level starts at a multiple of both its texels' size and 4.
-    const auto alignment = std::lcm(std::uint64_t{texel_bytes(layout.layout)}, std::uint64_t{4});
+    // Levels start at multiples of both the texel's size and 4, which divides all that are written.
+    const std::uint64_t alignment = texel_bytes(layout.layout);
     offsets.assign(stored.levels, 0);
     std::uint64_t end = pairs_offset + pairs.size();
     for (std::uint32_t level = stored.levels; level-- > 0;) {

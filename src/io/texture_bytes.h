@@ -4,13 +4,14 @@
 // descriptor names, in double precision. Whatever the specifications forbid is a runtime_error.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace aureole::io {
@@ -58,6 +59,7 @@ struct TextureBytes {
 
     // An IEEE-like number: a sign if it has one, exponent, mantissa.
     static double real(std::uint64_t code, unsigned count, bool is_signed) {
+        demand(count == 10 || count == 11 || count == 16 || count == 32, "bits of a float");
         const unsigned exponent_bits = count == 32 ? 8 : 5;
         const unsigned mantissa_bits = count - exponent_bits - (is_signed ? 1 : 0);
         const auto mantissa = static_cast<double>(code % (std::uint64_t{1} << mantissa_bits));
@@ -171,7 +173,8 @@ struct TextureBytes {
         t.read_metadata(pairs_at, pairs_end);
 
         // From the smallest level on, without gaps but for alignment, which is zero.
-        const std::uint64_t alignment = std::lcm(std::uint64_t{t.texel_bytes}, std::uint64_t{4});
+        const std::uint64_t alignment = t.texel_bytes % 4 == 0 ? t.texel_bytes : 4 * t.texel_bytes;
+        demand(alignment > 0, "size of a texel");
         std::uint64_t at = pairs_end;
         for (unsigned level = t.levels; level-- > 0;) {
             const std::uint64_t start = (at + alignment - 1) / alignment * alignment;

@@ -16,11 +16,12 @@ namespace aureole::io {
 // The colour of any file that read_picture() reads, the same bits as its Picture::color(), but
 // three channels always: grey is spread over them.
 //
-// Memory: the samples of 32 rows of the file, or of the rows of one tile where these are more, in
-// the colour channels and those between them; some 20 MB for 16384 pixels of RGB. What decoders
-// need comes on top: one block per thread of EXR, which is up to 256 rows with DWAB compression;
-// the whole picture, as bytes, for interlaced PNG and as coefficients for progressive JPEG. A
-// picture that its Exif orientation turns is held whole.
+// Memory: the samples of 32 rows of the file, or of one row of its tiles where that is more, as the
+// file has them and as float, in the colour channels and those between them: 20 to 30 MB for
+// 16384 pixels of RGB in half precision, 80 with tiles of 256. Decoders add a few of their blocks:
+// much with DWAB compression, whose blocks have 256 rows (270 MB for that width); the whole picture
+// for interlaced PNG and, as coefficients, for progressive JPEG. A picture that its Exif
+// orientation turns is held whole.
 //
 // Not for several threads at once.
 class PictureRows {
