@@ -20,8 +20,10 @@ namespace aureole::ibl {
 namespace {
 
 constexpr int kMostPixels = 65536;
-// Strips between rows that are integrated at once.
-constexpr int kBandStrips = 128;
+// Rows that are integrated at once: as many as fit into 8 MiB, and not so few that blocks are cut
+// all over.
+constexpr int kBandBytes = 8 << 20;
+constexpr int kFewestBandRows = 33;
 constexpr int kBlockSide = 16;
 
 void check_side(const char* name, int value) {
@@ -50,6 +52,17 @@ struct Block {
     int first_strip;
     int end_strip;
 };
+
+int band_rows_of(const LatLongGrid& grid) {
+    const int affordable = kBandBytes / (3 * static_cast<int>(sizeof(float)) * grid.width);
+    return std::min(grid.strips + 1, std::max(kFewestBandRows, affordable));
+}
+
+// The faces that see the same outlines as the block of another face, moved along the rows: when the
+// cube stands upright in the picture, its four sides do.
+constexpr int kFrontFace = 4;
+constexpr std::array<int, 4> kSides = {0, 1, 4, 5};
+bool is_side(int face) { return face != 2 && face != 3; }
 
 struct Worker {
     Worker(const LatLongGrid& grid, const Rotation& rotation)
@@ -87,8 +100,10 @@ struct LatLongToCube::Impl {
           adjustment(transform),
           cube(size),
           areas(size, kFaces * size, 1),
-          band(width, std::min(kBandStrips, grid.strips) + 1, 3) {
+          band(width, band_rows_of(grid), 3),
+          upright(std::abs(rotation.undo({0, 1, 0}).y) == 1) {
         for (const Tile& tile : blocks_of(size)) {
+            if (upright && is_side(tile.face) && tile.face != kFrontFace) continue;
             const BlockBounds bounds = bounds_of(tile, size, grid, rotation);
             blocks.push_back({tile, bounds.first_strip, bounds.end_strip});
         }
@@ -97,6 +112,7 @@ struct LatLongToCube::Impl {
 
     void take(const ConstImageView& rows, int first, int count);
     void integrate_band(int end_strip);
+    void add_block(Worker& worker, const Tile& tile, double shift);
 
     LatLongGrid grid;
     Rotation rotation;
@@ -105,6 +121,7 @@ struct LatLongToCube::Impl {
     Image areas;  // of the texels, in the unit of the sums; as cube.stacked()
     Image band;   // rows from that of node first_strip on
     int band_rows = 0;
+    bool upright;
     int first_strip = 0;
     int next_row = 0;
     bool finished = false;
@@ -153,24 +170,37 @@ void LatLongToCube::Impl::integrate_band(int end_strip) {
             touched.push_back(&block);
         }
     }
+    const auto middle = [&](int face) {
+        const Direction d = rotation.undo(ibl::direction_of({face, 0, 0}));
+        return grid.column(d.x, d.z);
+    };
     parallel_for(touched.size(), [&](std::size_t i, int index) {
         Worker& worker = workers[static_cast<std::size_t>(index)];
-        const Tile& tile = touched[i]->tile;
+        Tile tile = touched[i]->tile;
         worker.outlines.trace(tile, cube.size(), first_strip, end_strip);
-        worker.cells.fill({});
-        worker.sums.integrate(worker.outlines, band, first_strip, worker.cells.data());
-        for (int y = 0; y < tile.height; ++y) {
-            for (int x = 0; x < tile.width; ++x) {
-                const CellSum& cell = worker.cells[static_cast<std::size_t>(y * tile.width + x)];
-                for (int c = 0; c < 3; ++c) {
-                    cube.at(tile.face, tile.x + x, tile.y + y, c) +=
-                        static_cast<float>(cell.rgb[c]);
-                }
-                areas.at(tile.x + x, tile.face * cube.size() + tile.y + y) +=
-                    static_cast<float>(cell.area);
-            }
+        add_block(worker, tile, 0);
+        if (!upright || tile.face != kFrontFace) return;
+        for (const int face : kSides) {
+            if (face == kFrontFace) continue;
+            tile.face = face;
+            add_block(worker, tile, middle(face) - middle(kFrontFace));
         }
     });
+}
+
+// Adds what the traced outlines hold, moved by `shift` columns, to the texels of a block.
+void LatLongToCube::Impl::add_block(Worker& worker, const Tile& tile, double shift) {
+    worker.cells.fill({});
+    worker.sums.integrate(worker.outlines, shift, band, first_strip, worker.cells.data());
+    for (int y = 0; y < tile.height; ++y) {
+        const CellSum* cells = &worker.cells[static_cast<std::size_t>(y * tile.width)];
+        float* area = areas.row(tile.face * cube.size() + tile.y + y, 0) + tile.x;
+        for (int x = 0; x < tile.width; ++x) area[x] += static_cast<float>(cells[x].area);
+        for (int c = 0; c < 3; ++c) {
+            float* sums = cube.row(tile.face, tile.y + y, c) + tile.x;
+            for (int x = 0; x < tile.width; ++x) sums[x] += static_cast<float>(cells[x].rgb[c]);
+        }
+    }
 }
 
 LatLongToCube::LatLongToCube(int width, int height, int cube_size,

@@ -121,7 +121,8 @@ void Outlines::trace(const Tile& block, int size, int first_strip, int end_strip
 
 Outlines::Vertex Outlines::vertex(const Direction& unit) const {
     const double radius2 = unit.x * unit.x + unit.z * unit.z;
-    return {unit, radius2 > kPole ? 1 / radius2 : 0, grid_.column(unit.x, unit.z)};
+    return {unit, radius2 > kPole ? 1 / radius2 : 0, grid_.column(unit.x, unit.z),
+            grid_.strip(unit.y)};
 }
 
 // Every border once, for the cells on both its sides.
@@ -218,7 +219,7 @@ void Outlines::add_monotonic(const Vertex& a, const Vertex& b, const Direction& 
     const double leftmost = std::min(a.column, b.column);
     const double rightmost = std::max(a.column, b.column);
     const bool falls = last_mu < mu.start;
-    int r = grid_.strip(mu.start);
+    int r = a.strip;
     double t0 = 0;
     double mu0 = mu.start;
     while (true) {

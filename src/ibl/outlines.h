@@ -53,6 +53,7 @@ class Outlines {
         Direction direction;  // in the picture, unit
         double per_radius2;   // 1 / (x^2 + z^2); 0 at a pole, where columns do not change
         double column;
+        int strip;
     };
     Vertex vertex(const Direction& unit) const;
     void trace_borders(const Tile& block, double edge);

@@ -11,8 +11,8 @@ constexpr int kTableBytes = 384 << 10;
 
 }  // namespace
 
-void RunningSums::integrate(const Outlines& outlines, const ConstImageView& rows, int first_node,
-                            CellSum* cells) {
+void RunningSums::integrate(const Outlines& outlines, double shift, const ConstImageView& rows,
+                            int first_node, CellSum* cells) {
     if (outlines.points().empty()) return;
     double low = outlines.points().front().column;
     double high = low;
@@ -24,8 +24,8 @@ void RunningSums::integrate(const Outlines& outlines, const ConstImageView& rows
         first_strip = std::min(first_strip, point.strip);
         end_strip = std::max(end_strip, point.strip + 1);
     }
-    first_column_ = static_cast<int>(std::floor(low));
-    columns_ = static_cast<int>(std::floor(high)) - first_column_ + 2;
+    first_column_ = static_cast<int>(std::floor(low + shift));
+    columns_ = static_cast<int>(std::floor(high + shift)) - first_column_ + 2;
     const int strips_at_once =
         std::max(1, kTableBytes / (columns_ * static_cast<int>(sizeof(Node))) - 1);
     for (int first = first_strip; first < end_strip; first += strips_at_once) {
@@ -36,7 +36,7 @@ void RunningSums::integrate(const Outlines& outlines, const ConstImageView& rows
             build(rows, first_node, node,
                   table_.data() + static_cast<std::ptrdiff_t>(node - first) * columns_);
         }
-        add_points(outlines, first, end, cells);
+        add_points(outlines, shift, first, end, cells);
     }
 }
 
@@ -64,15 +64,16 @@ void RunningSums::build(const ConstImageView& rows, int first_node, int node, No
     }
 }
 
-void RunningSums::add_points(const Outlines& outlines, int first_strip, int end_strip,
-                             CellSum* cells) const {
+void RunningSums::add_points(const Outlines& outlines, double shift, int first_strip,
+                             int end_strip, CellSum* cells) const {
+    const double origin = shift - first_column_;
     for (const OutlineRun& run : outlines.runs()) {
         double sum[4] = {};
         double area = 0;
         for (int k = run.first; k < run.end; ++k) {
             const OutlinePoint& point = outlines.points()[static_cast<std::size_t>(k)];
             if (point.strip < first_strip || point.strip >= end_strip) continue;
-            const double column = point.column - first_column_;
+            const double column = point.column + origin;
             const int i = static_cast<int>(column);
             const double f = column - i;
             const double square = 0.5 * f * f;

@@ -19,10 +19,10 @@ class RunningSums {
   public:
     explicit RunningSums(const LatLongGrid& grid) : grid_(grid) {}
 
-    // Adds to cells[i] the integrals over cell i of `outlines`. Row y of `rows`, of three planar
+    // Adds to cells[i] the integrals over cell i of `outlines`, moved by `shift` columns. Row y of `rows`, of three planar
     // channels, is that of node first_node + y; all that the outlines touch are there.
-    void integrate(const Outlines& outlines, const ConstImageView& rows, int first_node,
-                   CellSum* cells);
+    void integrate(const Outlines& outlines, double shift, const ConstImageView& rows,
+                   int first_node, CellSum* cells);
 
   private:
     // At one pixel: the integral from the first pixel of the table to the middle of this one, and
@@ -32,7 +32,8 @@ class RunningSums {
         float value[4];
     };
     void build(const ConstImageView& rows, int first_node, int node, Node* out) const;
-    void add_points(const Outlines& outlines, int first_strip, int end_strip, CellSum* cells) const;
+    void add_points(const Outlines& outlines, double shift, int first_strip, int end_strip,
+                    CellSum* cells) const;
 
     const LatLongGrid& grid_;
     int first_column_ = 0;

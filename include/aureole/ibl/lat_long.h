@@ -40,8 +40,7 @@ double lat_long_solid_angle_sr(int y, int width, int height);
 // - nothing aliases when the cube is smaller, nothing is blocky when it is larger;
 // - there are no seams at edges of the cube, at the meridian where the picture ends, or at the
 //   poles.
-// docs/environment_maps.md derives it. Memory: 16 bytes per texel of the cube and 128 rows of the
-// picture. The same bits for any number of threads, and however rows are grouped.
+// docs/environment_maps.md derives it. Memory: 16 bytes per texel of the cube, and some 10 MB. The same bits for any number of threads, and however rows are grouped.
 class LatLongToCube {
   public:
     // Throws InvalidArgument unless width and height are in [1, 65536] and cube_size in [1, 16384],
