@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -157,6 +158,16 @@ void LatLongToCube::Impl::take(const ConstImageView& rows, int first, int count)
         });
         for (const Tally& row : tallies) tally.add(row);
         tally.write(report);
+    }
+    // The nodes of the first and the last row are the poles, where all columns meet: the function
+    // is continuous when they have one value, and their energy is the same.
+    for (const int row : {0, grid.height - 1}) {
+        if (row < next_row || row >= next_row + count || grid.height == 1) continue;
+        for (int c = 0; c < 3; ++c) {
+            float* values = &target.at(0, row - next_row, c);
+            const double sum = std::accumulate(values, values + grid.width, 0.0);
+            std::fill_n(values, grid.width, static_cast<float>(sum / grid.width));
+        }
     }
     band_rows += count;
     next_row += count;

@@ -15,6 +15,7 @@ namespace aureole::ibl {
 // border of their rows, so a pixel has the weight of its own solid angle in the integral of the
 // interpolated function: it keeps constants and energy at once. The nodes are 1 / (8 r + 4) rows
 // from the middle of row r: only the first few rows at the poles are moved noticeably.
+// The nodes at the poles have one value, the mean of their row.
 struct LatLongGrid {
     LatLongGrid(int width, int height);
 

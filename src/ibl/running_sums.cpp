@@ -64,8 +64,8 @@ void RunningSums::build(const ConstImageView& rows, int first_node, int node, No
     }
 }
 
-void RunningSums::add_points(const Outlines& outlines, double shift, int first_strip,
-                             int end_strip, CellSum* cells) const {
+void RunningSums::add_points(const Outlines& outlines, double shift, int first_strip, int end_strip,
+                             CellSum* cells) const {
     const double origin = shift - first_column_;
     for (const OutlineRun& run : outlines.runs()) {
         double sum[4] = {};

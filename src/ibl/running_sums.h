@@ -19,8 +19,9 @@ class RunningSums {
   public:
     explicit RunningSums(const LatLongGrid& grid) : grid_(grid) {}
 
-    // Adds to cells[i] the integrals over cell i of `outlines`, moved by `shift` columns. Row y of `rows`, of three planar
-    // channels, is that of node first_node + y; all that the outlines touch are there.
+    // Adds to cells[i] the integrals over cell i of `outlines`, moved by `shift` columns. Row y of
+    // `rows`, of three planar channels, is that of node first_node + y; all that the outlines touch
+    // are there.
     void integrate(const Outlines& outlines, double shift, const ConstImageView& rows,
                    int first_node, CellSum* cells);
 

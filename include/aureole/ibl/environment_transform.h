@@ -30,7 +30,7 @@ struct EnvironmentTransform {
     double exposure_ev = 0;
     // After exposure, texels of more luminance (color/rgb.h) are scaled down to it: their hue
     // stays, their energy does not. > 0; empty: off.
-    std::optional<double> max_luminance;
+    std::optional<double> max_luminance = {};
 };
 
 struct EnvironmentReport {
