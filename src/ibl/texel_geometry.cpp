@@ -1,0 +1,100 @@
+#include "ibl/texel_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "aureole/base/parallel.h"
+
+namespace aureole::ibl {
+namespace {
+
+// Gauss-Legendre with 4 points (Abramowitz & Stegun 25.4.30), over [-1, 1].
+constexpr double kNodes[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                              0.8611363115940526};
+constexpr double kWeights[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                0.3478548451374538};
+
+Direction local(double s, double t) { return normalized({s, t, 1}); }
+
+void set_moments(double s, double t, double half, TexelMoments& moments, TexelSpread& spread) {
+    const Direction middle = local(s, t);
+    double sum[10] = {};  // 1, L and the products of L - middle
+    for (int j = 0; j < 4; ++j) {
+        for (int i = 0; i < 4; ++i) {
+            const Direction d = local(s + half * kNodes[i], t + half * kNodes[j]);
+            const double weight = kWeights[i] * kWeights[j] * d.z * d.z * d.z;
+            const double x = d.x - middle.x;
+            const double y = d.y - middle.y;
+            const double z = d.z - middle.z;
+            const double terms[10] = {1, x, y, z, x * x, y * y, z * z, x * y, x * z, y * z};
+            for (int k = 0; k < 10; ++k) sum[k] += weight * terms[k];
+        }
+    }
+    for (int k = 1; k < 10; ++k) sum[k] /= sum[0];
+    const double* mean = sum + 1;
+    moments.mean[0] = static_cast<float>(middle.x + mean[0]);
+    moments.mean[1] = static_cast<float>(middle.y + mean[1]);
+    moments.mean[2] = static_cast<float>(middle.z + mean[2]);
+    constexpr int kFirst[6] = {0, 1, 2, 0, 0, 1};
+    constexpr int kSecond[6] = {0, 1, 2, 1, 2, 2};
+    for (int k = 0; k < 6; ++k) {
+        moments.covariance[k] = static_cast<float>(sum[4 + k] - mean[kFirst[k]] * mean[kSecond[k]]);
+    }
+    const auto halves = [](const Direction& from, const Direction& to, float* half_way) {
+        half_way[0] = static_cast<float>((to.x - from.x) / 2);
+        half_way[1] = static_cast<float>((to.y - from.y) / 2);
+        half_way[2] = static_cast<float>((to.z - from.z) / 2);
+    };
+    halves(local(s - half, t), local(s + half, t), spread.along_s);
+    halves(local(s, t - half), local(s, t + half), spread.along_t);
+}
+
+}  // namespace
+
+FaceFrame face_frame(int face) {
+    const Direction axis = direction_of({face, 0, 0});
+    // direction_of(1, 0) is (along_s + axis) / sqrt(2).
+    const auto edge = [&](double s, double t) {
+        const Direction d = direction_of({face, s, t});
+        const double root = std::sqrt(2.0);
+        return Direction{std::round(d.x * root - axis.x), std::round(d.y * root - axis.y),
+                         std::round(d.z * root - axis.z)};
+    };
+    return {edge(1, 0), edge(0, 1), axis};
+}
+
+TexelGeometry::TexelGeometry(int size_) : size(size_), blocks(tile_count(size_) / kFaces) {
+    const auto block_count = static_cast<std::size_t>(blocks);
+    solid_angle_sr.resize(block_count * kTileTexels);
+    moments.resize(block_count * kTileTexels);
+    spreads.resize(block_count * kTileTexels);
+    block_centre.resize(block_count);
+    std::vector<double> radius(block_count);
+    parallel_for(block_count, [&](std::size_t block, int) {
+        const Tile tile = tile_at(static_cast<int>(block), size);
+        const double half = 1.0 / size;
+        const auto coordinate = [&](double texels) { return 2 * texels / size - 1; };
+        for (int y = 0; y < tile.height; ++y) {
+            for (int x = 0; x < tile.width; ++x) {
+                const std::size_t at =
+                    block * kTileTexels + static_cast<std::size_t>(y * tile.width + x);
+                solid_angle_sr[at] = texel_solid_angle_sr(tile.x + x, tile.y + y, size);
+                set_moments(coordinate(tile.x + x + .5), coordinate(tile.y + y + .5), half,
+                            moments[at], spreads[at]);
+            }
+        }
+        const double s[2] = {coordinate(tile.x), coordinate(tile.x + tile.width)};
+        const double t[2] = {coordinate(tile.y), coordinate(tile.y + tile.height)};
+        const Direction centre = local((s[0] + s[1]) / 2, (t[0] + t[1]) / 2);
+        block_centre[block] = centre;
+        for (const double u : s) {
+            for (const double v : t) {
+                const double cosine = std::min(1.0, dot(centre, local(u, v)));
+                radius[block] = std::max(radius[block], std::acos(cosine));
+            }
+        }
+    });
+    block_radius = *std::max_element(radius.begin(), radius.end());
+}
+
+}  // namespace aureole::ibl
