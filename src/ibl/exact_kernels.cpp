@@ -6,27 +6,13 @@
 #define HWY_TARGET_INCLUDE "ibl/exact_kernels.cpp"
 #include <hwy/foreach_target.h>
 // Must come after foreach_target.h.
-#include <hwy/highway.h>
+#include "ibl/cut_texel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aureole::ibl::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<float, kOutputBlock>;
-using V = hn::Vec<D>;
-
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
-
-V set(float value) { return hn::Set(D(), value); }
-
-// 1 / a to float precision: x86 begins with at least 11 bits, ARM with 8.
-HWY_INLINE V reciprocal(V a) {
-    V r = hn::ApproximateReciprocal(a);
-    for (int i = 0; i < (HWY_ARCH_X86 ? 1 : 2); ++i) r = hn::Mul(r, hn::NegMulAdd(a, r, set(2)));
-    return r;
-}
+static_assert(kOutputBlock % kLanes == 0);
 
 HWY_INLINE V dot3(const float* a, V x, V y, V z) {
     return hn::MulAdd(set(a[0]), x, hn::MulAdd(set(a[1]), y, hn::Mul(set(a[2]), z)));
@@ -94,28 +80,12 @@ void whole(const LobeOutputs& outputs, const TexelMoments* texels, const float* 
     }
 }
 
-// max(0, x)^3
-HWY_INLINE V cubed_above_zero(V x) {
-    const V above = hn::Max(x, hn::Zero(D()));
-    return hn::Mul(above, hn::Mul(above, above));
-}
-
-// Over a texel that is cut, mu = mu_0 + g u + h v with u and v even in [-1, 1] (g >= h >= 0). The
-// mean of max(0, mu) is the sum of four cubes over 24 g h; 1 / q^2 hardly changes and is taken in
-// the middle of the lit part. h of less than g / 10 counts as that: the mean changes by less than
-// g / 1000, and the four cubes do not cancel each other.
+// The mean weight over a texel that is cut, as mean_above_zero: 1 / q^2 hardly changes and is taken
+// in the middle of the lit part.
 HWY_INLINE V cut_weight(const LobeOutputs& outputs, V mu, V g, V h) {
-    const V zero = hn::Zero(D());
-    const V narrow = hn::Max(h, hn::Mul(g, set(0.1F)));
-    const V outer = hn::Add(g, narrow);
-    const V inner = hn::Sub(g, narrow);
-    const V cubes = hn::Sub(
-        hn::Add(cubed_above_zero(hn::Add(mu, outer)), cubed_above_zero(hn::Sub(mu, outer))),
-        hn::Add(cubed_above_zero(hn::Add(mu, inner)), cubed_above_zero(hn::Sub(mu, inner))));
-    const V mean = hn::Mul(cubes, reciprocal(hn::Mul(set(24), hn::Mul(g, narrow))));
-    const V lit = hn::Max(mu, hn::Mul(set(0.5F), hn::Add(mu, outer)));
+    const V lit = hn::Max(mu, hn::Mul(set(0.5F), hn::Add(mu, hn::Add(g, h))));
     const V r = reciprocal(hn::NegMulAdd(set(outputs.b), lit, set(outputs.a2 + outputs.b)));
-    return hn::Max(zero, hn::Mul(mean, hn::Mul(r, r)));
+    return hn::Mul(mean_above_zero(mu, g, h), hn::Mul(r, r));
 }
 
 void cut(const LobeOutputs& outputs, const TexelMoments* texels, const TexelSpread* spreads,

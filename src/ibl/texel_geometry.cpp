@@ -16,12 +16,14 @@ constexpr double kWeights[4] = {0.3478548451374538, 0.6521451548625461, 0.652145
 
 Direction local(double s, double t) { return normalized({s, t, 1}); }
 
-void set_moments(double s, double t, double half, TexelMoments& moments, TexelSpread& spread) {
+}  // namespace
+
+TexelShape texel_shape(double s, double t, double half_side) {
     const Direction middle = local(s, t);
-    double sum[10] = {};  // 1, L and the products of L - middle
+    double sum[10] = {};  // 1, and of L - middle the coordinates and their products
     for (int j = 0; j < 4; ++j) {
         for (int i = 0; i < 4; ++i) {
-            const Direction d = local(s + half * kNodes[i], t + half * kNodes[j]);
+            const Direction d = local(s + half_side * kNodes[i], t + half_side * kNodes[j]);
             const double weight = kWeights[i] * kWeights[j] * d.z * d.z * d.z;
             const double x = d.x - middle.x;
             const double y = d.y - middle.y;
@@ -32,24 +34,36 @@ void set_moments(double s, double t, double half, TexelMoments& moments, TexelSp
     }
     for (int k = 1; k < 10; ++k) sum[k] /= sum[0];
     const double* mean = sum + 1;
-    moments.mean[0] = static_cast<float>(middle.x + mean[0]);
-    moments.mean[1] = static_cast<float>(middle.y + mean[1]);
-    moments.mean[2] = static_cast<float>(middle.z + mean[2]);
+    TexelShape shape;
+    shape.moments.mean[0] = static_cast<float>(middle.x + mean[0]);
+    shape.moments.mean[1] = static_cast<float>(middle.y + mean[1]);
+    shape.moments.mean[2] = static_cast<float>(middle.z + mean[2]);
     constexpr int kFirst[6] = {0, 1, 2, 0, 0, 1};
     constexpr int kSecond[6] = {0, 1, 2, 1, 2, 2};
     for (int k = 0; k < 6; ++k) {
-        moments.covariance[k] = static_cast<float>(sum[4 + k] - mean[kFirst[k]] * mean[kSecond[k]]);
+        shape.moments.covariance[k] =
+            static_cast<float>(sum[4 + k] - mean[kFirst[k]] * mean[kSecond[k]]);
     }
-    const auto halves = [](const Direction& from, const Direction& to, float* half_way) {
-        half_way[0] = static_cast<float>((to.x - from.x) / 2);
-        half_way[1] = static_cast<float>((to.y - from.y) / 2);
-        half_way[2] = static_cast<float>((to.z - from.z) / 2);
+    const auto halve = [](const Direction& from, const Direction& to, float* half) {
+        half[0] = static_cast<float>((to.x - from.x) / 2);
+        half[1] = static_cast<float>((to.y - from.y) / 2);
+        half[2] = static_cast<float>((to.z - from.z) / 2);
     };
-    halves(local(s - half, t), local(s + half, t), spread.along_s);
-    halves(local(s, t - half), local(s, t + half), spread.along_t);
+    halve(local(s - half_side, t), local(s + half_side, t), shape.spread.along_s);
+    halve(local(s, t - half_side), local(s, t + half_side), shape.spread.along_t);
+    return shape;
 }
 
-}  // namespace
+Cone cone_around(double s0, double t0, double s1, double t1) {
+    Cone cone = {local((s0 + s1) / 2, (t0 + t1) / 2)};
+    for (const double s : {s0, s1}) {
+        for (const double t : {t0, t1}) {
+            const double cosine = std::min(1.0, dot(cone.axis, local(s, t)));
+            cone.radius = std::max(cone.radius, std::acos(cosine));
+        }
+    }
+    return cone;
+}
 
 FaceFrame face_frame(int face) {
     const Direction axis = direction_of({face, 0, 0});
@@ -72,27 +86,23 @@ TexelGeometry::TexelGeometry(int size_) : size(size_), blocks(tile_count(size_) 
     std::vector<double> radius(block_count);
     parallel_for(block_count, [&](std::size_t block, int) {
         const Tile tile = tile_at(static_cast<int>(block), size);
-        const double half = 1.0 / size;
         const auto coordinate = [&](double texels) { return 2 * texels / size - 1; };
         for (int y = 0; y < tile.height; ++y) {
             for (int x = 0; x < tile.width; ++x) {
                 const std::size_t at =
                     block * kTileTexels + static_cast<std::size_t>(y * tile.width + x);
                 solid_angle_sr[at] = texel_solid_angle_sr(tile.x + x, tile.y + y, size);
-                set_moments(coordinate(tile.x + x + .5), coordinate(tile.y + y + .5), half,
-                            moments[at], spreads[at]);
+                const TexelShape shape = texel_shape(coordinate(tile.x + x + .5),
+                                                     coordinate(tile.y + y + .5), 1.0 / size);
+                moments[at] = shape.moments;
+                spreads[at] = shape.spread;
             }
         }
-        const double s[2] = {coordinate(tile.x), coordinate(tile.x + tile.width)};
-        const double t[2] = {coordinate(tile.y), coordinate(tile.y + tile.height)};
-        const Direction centre = local((s[0] + s[1]) / 2, (t[0] + t[1]) / 2);
-        block_centre[block] = centre;
-        for (const double u : s) {
-            for (const double v : t) {
-                const double cosine = std::min(1.0, dot(centre, local(u, v)));
-                radius[block] = std::max(radius[block], std::acos(cosine));
-            }
-        }
+        const Cone cone =
+            cone_around(coordinate(tile.x), coordinate(tile.y), coordinate(tile.x + tile.width),
+                        coordinate(tile.y + tile.height));
+        block_centre[block] = cone.axis;
+        radius[block] = cone.radius;
     });
     block_radius = *std::max_element(radius.begin(), radius.end());
 }

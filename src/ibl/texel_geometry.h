@@ -31,6 +31,21 @@ constexpr Direction from_frame(const FaceFrame& frame, const Direction& d) {
             d.x * frame.along_s.z + d.y * frame.along_t.z + d.z * frame.axis.z};
 }
 
+// Of the texel with its middle at (s, t) and sides of 2 half_side, in the frame of its face: the
+// mean of the unit vectors over it and their covariance, and how far they spread.
+struct TexelShape {
+    TexelMoments moments;
+    TexelSpread spread;
+};
+TexelShape texel_shape(double s, double t, double half_side);
+
+// A cone around everything between two corners of a face, in the frame of the face.
+struct Cone {
+    Direction axis;
+    double radius = 0;  // rad
+};
+Cone cone_around(double s0, double t0, double s1, double t1);
+
 struct TexelGeometry {
     explicit TexelGeometry(int size);
 
