@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "aureole/base/parallel.h"
+#include "ibl/gauss_legendre.h"
 
 namespace aureole::ibl {
 namespace {
@@ -22,20 +23,11 @@ constexpr int kDeepest = 30;       // of the quad-tree: far below what kLeastExa
 // A cell that a horizon cuts and that is integrated by points is not larger than this, in s and t.
 constexpr double kLargestCutCell = 1.0 / 64;
 
-// Gauss-Legendre rules over [-1, 1] (Abramowitz & Stegun, table 25.4).
-struct Rule {
-    int points;
-    double node[4];
-    double weight[4];
-};
-constexpr Rule kRules[3] = {
-    {2, {-0.5773502691896257, 0.5773502691896257}, {1, 1}},
-    {3,
-     {-0.7745966692414834, 0, 0.7745966692414834},
-     {0.5555555555555556, 0.8888888888888888, 0.5555555555555556}},
-    {4,
-     {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526},
-     {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538}}};
+// With 2, 3 and 4 points.
+const std::array<GaussRule, 3>& rules() {
+    static const std::array kRules = {gauss_legendre(2), gauss_legendre(3), gauss_legendre(4)};
+    return kRules;
+}
 
 // What may lie between an output and a point of a block or cell: their centres' angle, less or
 // more the sum of their radii.
@@ -197,22 +189,23 @@ class Gather {
                 }
             }
         } else if (!is_cut && ratio2 > kTwoPoints * kTwoPoints) {
-            add_points(kRules[0], s, t, side / 2);
+            add_points(rules_[0], s, t, side / 2);
         } else if (!is_cut && ratio2 > kThreePoints * kThreePoints) {
-            add_points(kRules[1], s, t, side / 2);
+            add_points(rules_[1], s, t, side / 2);
         } else {
-            add_points(kRules[2], s, t, side / 2);
+            add_points(rules_[2], s, t, side / 2);
         }
     }
 
-    void add_points(const Rule& rule, double s, double t, double half) {
-        for (int j = 0; j < rule.points; ++j) {
-            for (int i = 0; i < rule.points; ++i) {
-                const Direction face_point = {s + half * rule.node[i], t + half * rule.node[j], 1};
+    void add_points(const GaussRule& rule, double s, double t, double half) {
+        for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
+            for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+                const Direction face_point = {s + half * rule.nodes[i], t + half * rule.nodes[j],
+                                              1};
                 const double scale = 1 / std::sqrt(dot(face_point, face_point));
                 const Direction d = from_frame(frame_, face_point);
                 const double solid_angle_sr =
-                    half * half * rule.weight[i] * rule.weight[j] * scale * scale * scale;
+                    half * half * rule.weights[i] * rule.weights[j] * scale * scale * scale;
                 LobePoint& point = points_.next();
                 point.offset[0] = static_cast<float>(d.x * scale - centre_.x);
                 point.offset[1] = static_cast<float>(d.y * scale - centre_.y);
@@ -231,6 +224,7 @@ class Gather {
     }
 
     const TexelGeometry& geometry_;
+    const std::array<GaussRule, 3>& rules_ = rules();
     const float* light_;
     GgxLobe lobe_;
     const Direction* normals_;

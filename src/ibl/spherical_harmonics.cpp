@@ -8,6 +8,7 @@
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "aureole/base/units.h"
+#include "ibl/gauss_legendre.h"
 
 namespace aureole::ibl {
 namespace {
@@ -22,23 +23,12 @@ constexpr double kWeakestPerBand = 16;  // cutoffs that are looked for
 constexpr int kCutoffSteps = 14;
 constexpr int kGridSize = 24;  // of the cube map on which negative values are looked for
 
-struct Rule {
-    int points;
-    double node[4];
-    double weight[4];
-};
-
-// Gauss-Legendre over [-1, 1] (Abramowitz & Stegun, table 25.4).
-constexpr Rule kOnePoint = {1, {0}, {2}};
-constexpr Rule kTwoPoints = {2, {-0.5773502691896257, 0.5773502691896257}, {1, 1}};
-constexpr Rule kFourPoints = {
-    4,
-    {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526},
-    {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538}};
-
-const Rule& rule_for(int size) {
-    if (size >= kOnePointSize) return kOnePoint;
-    return size >= kTwoPointSize ? kTwoPoints : kFourPoints;
+const GaussRule& rule_for(int size) {
+    static const GaussRule one = gauss_legendre(1);
+    static const GaussRule two = gauss_legendre(2);
+    static const GaussRule four = gauss_legendre(4);
+    if (size >= kOnePointSize) return one;
+    return size >= kTwoPointSize ? two : four;
 }
 
 using Basis = std::array<double, kMostShCoefficients>;
@@ -73,16 +63,16 @@ struct Recurrence {
 
 // Integral of Y over texel (x, y) of a face.
 Basis integral_over(int face, int x, int y, int size, int bands) {
-    const Rule& rule = rule_for(size);
+    const GaussRule& rule = rule_for(size);
     const double half = 1.0 / size;
     Basis sum = {};
     double total = 0;
-    for (int j = 0; j < rule.points; ++j) {
-        for (int i = 0; i < rule.points; ++i) {
-            const double s = (2 * x + 1 + rule.node[i]) * half - 1;
-            const double t = (2 * y + 1 + rule.node[j]) * half - 1;
+    for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
+        for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+            const double s = (2 * x + 1 + rule.nodes[i]) * half - 1;
+            const double t = (2 * y + 1 + rule.nodes[j]) * half - 1;
             const double h = 1 + s * s + t * t;
-            const double weight = rule.weight[i] * rule.weight[j] / (h * std::sqrt(h));
+            const double weight = rule.weights[i] * rule.weights[j] / (h * std::sqrt(h));
             const Basis basis = sh_basis(direction_of({face, s, t}));
             total += weight;
             for (int k = 0; k < bands * bands; ++k) {

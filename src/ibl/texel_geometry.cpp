@@ -4,27 +4,23 @@
 #include <cmath>
 
 #include "aureole/base/parallel.h"
+#include "ibl/gauss_legendre.h"
 
 namespace aureole::ibl {
 namespace {
-
-// Gauss-Legendre with 4 points (Abramowitz & Stegun 25.4.30), over [-1, 1].
-constexpr double kNodes[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                              0.8611363115940526};
-constexpr double kWeights[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                                0.3478548451374538};
 
 Direction local(double s, double t) { return normalized({s, t, 1}); }
 
 }  // namespace
 
 TexelShape texel_shape(double s, double t, double half_side) {
+    static const GaussRule rule = gauss_legendre(4);
     const Direction middle = local(s, t);
     double sum[10] = {};  // 1, and of L - middle the coordinates and their products
-    for (int j = 0; j < 4; ++j) {
-        for (int i = 0; i < 4; ++i) {
-            const Direction d = local(s + half_side * kNodes[i], t + half_side * kNodes[j]);
-            const double weight = kWeights[i] * kWeights[j] * d.z * d.z * d.z;
+    for (std::size_t j = 0; j < 4; ++j) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Direction d = local(s + half_side * rule.nodes[i], t + half_side * rule.nodes[j]);
+            const double weight = rule.weights[i] * rule.weights[j] * d.z * d.z * d.z;
             const double x = d.x - middle.x;
             const double y = d.y - middle.y;
             const double z = d.z - middle.z;
