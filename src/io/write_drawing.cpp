@@ -9,20 +9,21 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <type_traits>
 
 #include "aureole/base/error.h"
 #include "io/atomic_file.h"
+#include "io/drawing_checks.h"
 
 namespace aureole::io {
 namespace {
 
 constexpr double kPointsPerMm = 72 / 25.4;
-constexpr double kLargestSheetMm = 5000;  // what a PDF can be: 14400 points
 constexpr int kLeastPixels = 16;
-constexpr int kMostPixels = 20000;
 
 enum class Format { kSvg, kPng, kPdf };
 
@@ -34,62 +35,6 @@ Format format_of(const std::string& path) {
     if (extension == ".png") return Format::kPng;
     if (extension == ".pdf") return Format::kPdf;
     throw InvalidArgument("drawing", path, "must end in .svg, .png or .pdf");
-}
-
-void check_number(const char* what, double value, double least = -kLargestSheetMm * 1e3,
-                  double most = kLargestSheetMm * 1e3) {
-    // Cairo's numbers have 24 bits before the point, and it would wrap around silently.
-    if (value >= least && value <= most) return;
-    throw InvalidArgument(std::string(what) + " of a drawing", fmt::format("{}", value),
-                          fmt::format("must be a number in [{}, {}]", least, most));
-}
-
-void check_color(const DrawingColor& color) {
-    for (const double value : {color.red, color.green, color.blue, color.opacity}) {
-        check_number("color", value, 0, 1);
-    }
-}
-
-void check_points(const std::vector<DrawingPoint>& points) {
-    for (const DrawingPoint& point : points) {
-        check_number("x_mm", point.x_mm);
-        check_number("y_mm", point.y_mm);
-    }
-}
-
-void check_item(const DrawingArea& area) {
-    check_points(area.points);
-    check_color(area.fill);
-    check_color(area.outline);
-    check_number("outline_width_mm", area.outline_width_mm, 0);
-}
-
-void check_item(const DrawingLine& line) {
-    check_points(line.points);
-    check_color(line.color);
-    check_number("width_mm", line.width_mm, 0);
-    double period_mm = 0;
-    for (const double length_mm : line.dash_mm) {
-        check_number("dash_mm", length_mm, 0);
-        period_mm += length_mm;
-    }
-    // All zeros would never end.
-    if (!line.dash_mm.empty()) check_number("dash_mm, its sum,", period_mm, 1e-3);
-}
-
-void check_item(const DrawingText& text) {
-    check_points({text.position});
-    check_color(text.color);
-    check_number("size_mm", text.size_mm, 0.01);
-}
-
-void check_drawing(const Drawing& drawing) {
-    check_number("width_mm", drawing.width_mm, 1, kLargestSheetMm);
-    check_number("height_mm", drawing.height_mm, 1, kLargestSheetMm);
-    check_color(drawing.background);
-    for (const auto& item : drawing.items) {
-        std::visit([](const auto& one) { check_item(one); }, item);
-    }
 }
 
 // How many bytes the character at `at` has, or 0 if it is no UTF-8 or not to be printed. Neither is
@@ -121,6 +66,8 @@ std::string printable(const std::string& text) {
     }
     return result;
 }
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
 void set_color(cairo_t* cairo, const DrawingColor& color) {
     cairo_set_source_rgba(cairo, color.red, color.green, color.blue, color.opacity);
@@ -168,6 +115,44 @@ void paint(cairo_t* cairo, const DrawingText& text) {
     cairo_new_path(cairo);
 }
 
+std::uint32_t byte_of(float value) {
+    // Not a number is 0 too.
+    return value > 0 ? static_cast<std::uint32_t>(std::min(value, 1.0F) * 255 + 0.5F) : 0;
+}
+
+Surface surface_of(const Image& pixels) {
+    Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels.width(), pixels.height()),
+                    cairo_surface_destroy);
+    unsigned char* data = cairo_image_surface_get_data(surface.get());
+    if (data == nullptr) return surface;  // its error reaches whoever paints with it
+    for (int y = 0; y < pixels.height(); ++y) {
+        // Rows are aligned to whole pixels of 32 bits.
+        auto* const row = reinterpret_cast<std::uint32_t*>(data);
+        for (int x = 0; x < pixels.width(); ++x) {
+            row[x] = byte_of(pixels.at(x, y, 0)) << 16U | byte_of(pixels.at(x, y, 1)) << 8U |
+                     byte_of(pixels.at(x, y, 2));
+        }
+        data += cairo_image_surface_get_stride(surface.get());
+    }
+    cairo_surface_mark_dirty(surface.get());
+    return surface;
+}
+
+void paint(cairo_t* cairo, const DrawingImage& image) {
+    const Surface surface = surface_of(image.pixels);
+    cairo_save(cairo);
+    cairo_translate(cairo, image.corner.x_mm, image.corner.y_mm);
+    cairo_rectangle(cairo, 0, 0, image.width_mm, image.height_mm);
+    cairo_clip(cairo);
+    cairo_scale(cairo, image.width_mm / image.pixels.width(),
+                image.height_mm / image.pixels.height());
+    cairo_set_source_surface(cairo, surface.get(), 0, 0);
+    // Without this its edge pixels fade out.
+    cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
+    cairo_paint(cairo);
+    cairo_restore(cairo);
+}
+
 void paint(cairo_t* cairo, const Drawing& drawing) {
     set_color(cairo, drawing.background);
     cairo_rectangle(cairo, 0, 0, drawing.width_mm, drawing.height_mm);
@@ -192,7 +177,6 @@ cairo_status_t append(void* closure, const unsigned char* data, unsigned length)
     return CAIRO_STATUS_SUCCESS;
 }
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 void check_status(cairo_status_t status, const std::string& path) {

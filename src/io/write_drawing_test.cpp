@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "aureole/base/error.h"
+#include "aureole/color/rgb.h"
 #include "aureole/io/picture.h"
 #include "io/test_support.h"
 
@@ -173,6 +175,57 @@ TEST(WriteDrawing, OverlapsAreEvenOddAndOpacityMixes) {
     EXPECT_NEAR(mean(picture, 4, 70, 25, 0), 0.2140, 0.003);
 }
 
+// One pixel per mm in the image and in the PNG.
+TEST(WriteDrawing, ImagesKeepTheirPixelsPlaceAndOrder) {
+    const TemporaryFolder folder;
+    Drawing drawing = sheet();
+    DrawingImage image{{50, 10}, 20, 10, Image(20, 10, 3)};
+    for (int y = 0; y < 10; ++y) {
+        for (int x = 0; x < 20; ++x) {
+            image.pixels.at(x, y, 0) = static_cast<float>(x) / 19;
+            image.pixels.at(x, y, 1) = static_cast<float>(y) / 9;
+            image.pixels.at(x, y, 2) = x < y ? 2.0F : -1.0F;
+        }
+    }
+    image.pixels.at(3, 3, 0) = std::nanf("");
+    drawing.items.clear();
+    drawing.items.push_back(image);
+    write_drawing(folder.file("image.png"), drawing, 100);
+    const Picture picture = read_picture(folder.file("image.png"));
+    for (int y = 0; y < 50; ++y) {
+        for (int x = 0; x < 100; ++x) {
+            const bool inside = x >= 50 && x < 70 && y >= 10 && y < 20;
+            for (int c = 0; c < 3; ++c) {
+                float expected = 1;
+                if (inside) {
+                    expected = image.pixels.at(x - 50, y - 10, c);
+                    expected = expected > 0 ? std::min(expected, 1.0F) : 0;
+                }
+                const float value = color::srgb_encode(picture.image().at(x, y, c));
+                ASSERT_NEAR(value, expected, 0.51 / 255) << x << ' ' << y << ' ' << c;
+            }
+        }
+    }
+    // At any other scale the edges stay as they are.
+    write_drawing(folder.file("large.png"), drawing, 750);
+    const Picture large = read_picture(folder.file("large.png"));
+    EXPECT_EQ(large.image().at(375, 149, 1), 1);
+    EXPECT_EQ(large.image().at(524, 75, 0), 1);
+    EXPECT_EQ(large.image().at(376, 76, 0), 0);
+}
+
+TEST(WriteDrawing, ImagesAreInEveryFormat) {
+    const TemporaryFolder folder;
+    Drawing drawing = sheet();
+    drawing.items.push_back(DrawingImage{{50, 10}, 20, 10, Image(20, 10, 3)});
+    write_drawing(folder.file("image.svg"), drawing);
+    write_drawing(folder.file("image.pdf"), drawing);
+    const std::string svg = read_bytes(folder.file("image.svg"));
+    EXPECT_TRUE(well_formed(svg)) << svg;
+    EXPECT_EQ(count(svg, "data:image/png;base64,"), 1U) << svg;
+    EXPECT_NE(read_bytes(folder.file("image.pdf")).find("/Subtype /Image"), std::string::npos);
+}
+
 TEST(WriteDrawing, PdfIsAPdfWithItsTitle) {
     const TemporaryFolder folder;
     const std::string path = folder.file("sheet.pdf");
@@ -225,6 +278,11 @@ TEST(WriteDrawing, WhatCannotBeDrawnIsNamedAndLeavesNothing) {
     drawing = sheet();
     std::get<DrawingText>(drawing.items[2]).color.opacity = 2;
     refuse(good, drawing, 1600, {"color of a drawing = 2"});
+    drawing = sheet();
+    drawing.items.push_back(DrawingImage{{0, 0}, 10, 10, Image(2, 2, 1)});
+    refuse(good, drawing, 1600, {"channel count of an image of a drawing = 1"});
+    std::get<DrawingImage>(drawing.items.back()).pixels = {};
+    refuse(good, drawing, 1600, {"width in pixels of an image of a drawing = 0"});
 }
 
 TEST(WriteDrawing, BytesThatAreNoTextBecomeQuestionMarks) {

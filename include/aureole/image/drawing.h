@@ -1,11 +1,13 @@
-// A technical drawing as data: lines, areas and text in millimetres. Who makes one needs no drawing
-// library; io/write_drawing.h turns it into files.
+// A technical drawing as data: lines, areas, text and pictures in millimetres. Who makes one needs
+// no drawing library; io/write_drawing.h turns it into files.
 #pragma once
 
 #include <array>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "aureole/image/image.h"
 
 namespace aureole {
 
@@ -44,13 +46,20 @@ struct DrawingText {
     Anchor anchor = Anchor::kStart;
 };
 
+struct DrawingImage {
+    DrawingPoint corner;  // its upper left
+    double width_mm = 0;
+    double height_mm = 0;
+    Image pixels;  // display values (sRGB) of 3 channels; clipped to [0, 1], enlarged smoothly
+};
+
 struct Drawing {
     double width_mm = 0;
     double height_mm = 0;
     DrawingColor background = {1, 1, 1, 1};
     std::string title;
     // Painted in this order.
-    std::vector<std::variant<DrawingArea, DrawingLine, DrawingText>> items;
+    std::vector<std::variant<DrawingArea, DrawingLine, DrawingText, DrawingImage>> items;
 };
 
 }  // namespace aureole
