@@ -169,7 +169,8 @@ ibl::CubeMap EnvironmentOptions::from_picture(const std::string& file, const Ima
         if (layout == ibl::Layout::kLatLong) {
             return ibl::cube_from_lat_long(picture, size_, transform(), &report);
         }
-        return ibl::transformed(ibl::cube_from_layout(picture, layout), size_, transform(), &report);
+        return ibl::transformed(ibl::cube_from_layout(picture, layout), size_, transform(),
+                                &report);
     });
 }
 

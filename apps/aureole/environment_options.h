@@ -1,4 +1,5 @@
-// The environment that `aureole ibl` reads: INPUT, --size, --layout, --rotate, --mirror, --exposure,
+// The environment that `aureole ibl` reads: INPUT, --size, --layout, --rotate, --mirror,
+// --exposure,
 // --clamp.
 #pragma once
 

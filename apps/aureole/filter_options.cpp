@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "aureole/base/error.h"
-#include "aureole/ibl/progressive.h"
 #include "aureole/ibl/roughness.h"
 #include "option_checks.h"
 
@@ -46,10 +45,9 @@ void FilterOptions::add_options(CLI::App& command) {
                             "the others sample"),
            methods)
         ->capture_default_str();
-    quality_option_ =
-        one_of(group.add_option("--quality", quality_, "Of gather"),
-               words(ibl::kFilterQualityNames))
-            ->capture_default_str();
+    quality_option_ = one_of(group.add_option("--quality", quality_, "Of gather"),
+                             words(ibl::kFilterQualityNames))
+                          ->capture_default_str();
     whole_number(group.add_option("--samples", samples_,
                                   "Of the sampling methods: one number, or one per level, the last "
                                   "for all others: 1,8,32,64,128 (default: 32; reference 1024; "

@@ -8,6 +8,7 @@
 
 #include "aureole/ibl/cube_map.h"
 #include "aureole/ibl/prefilter.h"
+#include "aureole/ibl/progressive.h"
 #include "session.h"
 
 namespace aureole::app {
@@ -39,7 +40,8 @@ class FilterOptions {
     std::string method_ = "gather";
     std::string quality_ = "normal";
     std::vector<int> samples_;
-    std::string sequence_ = "sobol";
+    std::string sequence_{
+        ibl::kSampleSequenceNames[static_cast<std::size_t>(ibl::ProgressiveOptions().sequence)]};
     double fis_overlap_ = 1;
     double fis_bias_ = 0;
     CLI::Option* quality_option_ = nullptr;

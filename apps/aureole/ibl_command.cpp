@@ -75,10 +75,11 @@ void IblCommand::add_options(CLI::App& command) {
                                 "negative"),
                {ibl::kShWindowNames.begin(), ibl::kShWindowNames.end()})
             ->capture_default_str();
-    one_of(group.add_option("--brdf", brdf,
-                            "Table to write: ggx: split sum; multiscatter: the same with the energy "
-                            "of many bounces; cloth: Charlie"),
-           {ibl::kBrdfTableKindNames.begin(), ibl::kBrdfTableKindNames.end()})
+    one_of(
+        group.add_option("--brdf", brdf,
+                         "Table to write: ggx: split sum; multiscatter: the same with the energy "
+                         "of many bounces; cloth: Charlie"),
+        {ibl::kBrdfTableKindNames.begin(), ibl::kBrdfTableKindNames.end()})
         ->capture_default_str();
     whole_number(group.add_option("--brdf-size", brdf_size, "Of the table"), 2, kLargestTable)
         ->type_name("TEXELS")
@@ -147,10 +148,8 @@ nlohmann::ordered_json IblCommand::levels_json(const ibl::CubeMap& environment,
     auto levels = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < chain.size(); ++i) {
         const double alpha = ibl::alpha_from_roughness(roughness[i]);
-        nlohmann::ordered_json level = {{"level", i},
-                                        {"size", chain[i].size()},
-                                        {"roughness", roughness[i]},
-                                        {"alpha", alpha}};
+        nlohmann::ordered_json level = {
+            {"level", i}, {"size", chain[i].size()}, {"roughness", roughness[i]}, {"alpha", alpha}};
         if (exact && alpha > 0) {
             const ibl::FilterError error = session.timed("report", [&] {
                 return ibl::measure_filter_error(*exact, chain[i], alpha, {}, &session);
@@ -189,9 +188,9 @@ std::string IblCommand::summary(const std::vector<std::string>& written) const {
                             level["size"].get<int>(), level["roughness"].get<double>());
         if (level.contains("error")) {
             const auto& error = level["error"];
-            text += fmt::format(" {:>9.3f}% {:>9.3f}% {:>9.3f}%", 100 * error["rms"].get<double>(),
-                                100 * error["bias"].get<double>(),
-                                100 * error["most"].get<double>());
+            text +=
+                fmt::format(" {:>9.3f}% {:>9.3f}% {:>9.3f}%", 100 * error["rms"].get<double>(),
+                            100 * error["bias"].get<double>(), 100 * error["most"].get<double>());
         }
         text += "\n";
     }

@@ -30,9 +30,10 @@ io::TexelFormat texel_format(const std::string& name) {
 
 void IblFileOptions::add_options(CLI::App& command) {
     CLI::Option_group& group = *command.add_option_group("Files");
-    one_of(group.add_option("--format", format,
-                            "dds, ktx2: textures with all levels; exr, hdr: pictures, one per level"),
-           {"dds", "ktx2", "exr", "hdr"})
+    one_of(
+        group.add_option("--format", format,
+                         "dds, ktx2: textures with all levels; exr, hdr: pictures, one per level"),
+        {"dds", "ktx2", "exr", "hdr"})
         ->capture_default_str();
     texel_option = one_of(group.add_option("--texel", texel, "Of dds and ktx2"),
                           {"half", "float", "r11g11b10", "rgb9e5"})
@@ -154,8 +155,7 @@ void IblFiles::write_cube(const std::string& name, const ibl::CubeMap& cube) {
 
 void IblFiles::write_picture(const std::string& name, Image image) {
     const std::string file = name + "." + options_.format;
-    const io::WriteReport report =
-        io::write_picture(path(file), io::Picture(std::move(image)), {});
+    const io::WriteReport report = io::write_picture(path(file), io::Picture(std::move(image)), {});
     if (report.clipped_samples > 0) {
         session_.note(fmt::format("{}: {} samples do not fit its format and were clipped", file,
                                   report.clipped_samples));

@@ -66,9 +66,8 @@ Image lat_long(int width, const Radiance& radiance) {
 }
 
 Image soft_sky(int width) {
-    return lat_long(width, [](const ibl::Direction& d, int c) {
-        return 1 + 0.5 * d.y + 0.2 * (c + 1) * d.x;
-    });
+    return lat_long(
+        width, [](const ibl::Direction& d, int c) { return 1 + 0.5 * d.y + 0.2 * (c + 1) * d.x; });
 }
 
 TEST_F(Ibl, WritesOneSetOfTextures) {
@@ -101,14 +100,14 @@ TEST_F(Ibl, WritesPicturesInEveryArrangement) {
         std::vector<std::string> level_files;
         int width;
         int height;
-    } cases[] = {{"strip", {"level_0"}, 96, 16},
-                 {"cross", {"level_0"}, 64, 48},
-                 {"lat-long", {"level_0"}, 64, 32},
-                 {"faces",
-                  {"level_0_px", "level_0_nx", "level_0_py", "level_0_ny", "level_0_pz",
-                   "level_0_nz"},
-                  16,
-                  16}};
+    } cases[] = {
+        {"strip", {"level_0"}, 96, 16},
+        {"cross", {"level_0"}, 64, 48},
+        {"lat-long", {"level_0"}, 64, 32},
+        {"faces",
+         {"level_0_px", "level_0_nx", "level_0_py", "level_0_ny", "level_0_pz", "level_0_nz"},
+         16,
+         16}};
     for (const auto& c : cases) {
         for (const std::string& format : {std::string("exr"), std::string("hdr")}) {
             const std::string out = c.arrange + format;
@@ -142,8 +141,9 @@ TEST_F(Ibl, EveryLayoutIsReadAsItWasWritten) {
     report("ibl cube.exr --size 16 --levels 1 -o cross --format exr --arrange cross");
     EXPECT_TRUE(same("cross/level_0.exr"));
     report("ibl cube.exr --size 16 --levels 1 -o faces --format exr --arrange faces");
-    EXPECT_TRUE(same("faces/level_0_px.exr faces/level_0_nx.exr faces/level_0_py.exr "
-                     "faces/level_0_ny.exr faces/level_0_pz.exr faces/level_0_nz.exr"));
+    EXPECT_TRUE(
+        same("faces/level_0_px.exr faces/level_0_nx.exr faces/level_0_py.exr "
+             "faces/level_0_ny.exr faces/level_0_pz.exr faces/level_0_nz.exr"));
     // Lat-long resamples: a smooth map comes back within a few percent, in its place.
     write("sky.exr", soft_sky(256));
     report("ibl sky.exr --size 32 --levels 1 -o one --format exr --arrange lat-long");
@@ -156,9 +156,8 @@ TEST_F(Ibl, EveryLayoutIsReadAsItWasWritten) {
 
 TEST_F(Ibl, RotationAndMirrorMoveTheSun) {
     // A sun at +X.
-    write("sun.exr", lat_long(128, [](const ibl::Direction& d, int) {
-              return d.x > 0.95 ? 100.0 : 0.0;
-          }));
+    write("sun.exr",
+          lat_long(128, [](const ibl::Direction& d, int) { return d.x > 0.95 ? 100.0 : 0.0; }));
     const auto brightest_face = [&](const std::string& options) {
         report("ibl sun.exr --size 8 --levels 1 --texel float -o out " + options);
         const Image stacked = texture("out/environment.dds").levels[0];
@@ -260,9 +259,9 @@ TEST_F(Ibl, RefusesWhatItCannotUse) {
         int exit_code;
     } cases[] = {
         {"ibl missing.exr -o out", {"missing.exr"}, 1},
-        {"ibl wide.exr -o out", {"wide.exr", "50x31"}, 1},
-        {"ibl one.exr -o out", {"one.exr", "1x1"}, 1},
-        {"ibl odd.exr --layout horizontal-cross -o out", {"odd.exr", "64x32"}, 1},
+        {"ibl wide.exr -o out", {"wide.exr", "50 x 31"}, 1},
+        {"ibl one.exr -o out", {"one.exr", "1 x 1"}, 1},
+        {"ibl odd.exr --layout horizontal-cross -o out", {"odd.exr", "64 x 32"}, 1},
         {"ibl broken.dds -o out", {"broken.dds"}, 1},
         {"ibl odd.exr square.exr -o out", {"6"}, 2},
         {"ibl small.exr small.exr small.exr square.exr small.exr small.exr -o out",
