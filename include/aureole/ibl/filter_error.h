@@ -23,11 +23,11 @@ struct FilterError {
     double most = 0;  // largest |difference| among those compared
 };
 
-// Half of the sample is drawn evenly, half in proportion to luminance squared, each texel weighted by
-// the inverse of its chance: a sun that covers few texels is not missed, and the estimate of the mean
-// square has no bias. With all texels compared it is exact.
-// `level` was filtered with `alpha` from the environment of `exact`. Throws InvalidArgument for an
-// empty level, alpha outside (0, 1] or no texels, Cancelled.
+// Half of the sample is drawn evenly, half in proportion to luminance squared, each texel weighted
+// by the inverse of its chance: a sun that covers few texels is not missed, and the estimate of the
+// mean square has no bias. With all texels compared it is exact. `level` was filtered with `alpha`
+// from the environment of `exact`. Throws InvalidArgument for an empty level, alpha outside (0, 1]
+// or no texels, Cancelled.
 FilterError measure_filter_error(const ExactFilter& exact, const CubeMap& level, double alpha,
                                  const FilterErrorOptions& options = {},
                                  Progress* progress = nullptr);
