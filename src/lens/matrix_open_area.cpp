@@ -26,8 +26,9 @@ struct Slice {
 };
 Slice slice(double radius, double from, double to) {
     const double r2 = radius * radius;
-    const double low = std::clamp(from / radius, -1.0, 1.0);
-    const double high = std::clamp(to / radius, -1.0, 1.0);
+    const double per_radius = 1 / radius;
+    const double low = std::clamp(from * per_radius, -1.0, 1.0);
+    const double high = std::clamp(to * per_radius, -1.0, 1.0);
     const double low_root = std::sqrt(1 - low * low);
     const double high_root = std::sqrt(1 - high * high);
     const auto angle = [](double sine) {
@@ -40,50 +41,51 @@ Slice slice(double radius, double from, double to) {
 
 }  // namespace
 
-CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scratch) noexcept {
-    CommonArea common;
-    common.low = -1e300;
-    common.high = 1e300;
+BoundingDiscs bounding_discs(std::span<const LineDisc> discs,
+                             std::span<LineDisc> scratch) noexcept {
+    double low = -HUGE_VAL;
+    double high = HUGE_VAL;
     for (const LineDisc& disc : discs) {
-        common.low = std::max(common.low, disc.center - disc.radius);
-        common.high = std::min(common.high, disc.center + disc.radius);
+        low = std::max(low, disc.center - disc.radius);
+        high = std::min(high, disc.center + disc.radius);
     }
-    if (!(common.low < common.high)) return common;
+    if (!(low < high)) return {};
     // From left to right the centres of the bounding discs fall.
     std::size_t size = 0;
     for (std::size_t i = discs.size(); i-- > 0;) {
-        const LineDisc& disc = discs[i];
+        LineDisc disc = discs[i];
         bool needed = true;
-        while (size > 0) {
+        for (; size > 0; --size) {
             const LineDisc& last = scratch[size - 1];
             if (last.center == disc.center) {
-                if (last.radius <= disc.radius) {
-                    needed = false;
-                    break;
-                }
-            } else if (size == 1 || crossing(last, disc) > crossing(scratch[size - 2], last)) {
-                break;
+                needed = disc.radius < last.radius;
+                if (!needed) break;
+            } else {
+                disc.from = crossing(last, disc);
+                needed = disc.from < high;
+                if (!needed || disc.from > last.from) break;
             }
-            --size;
         }
+        if (size == 0) disc.from = low;
         if (needed) scratch[size++] = disc;
     }
+    return {scratch.first(size), high};
+}
+
+CommonArea common_area(const BoundingDiscs& bounds) noexcept {
+    CommonArea common;
     double moment = 0;
-    double from = common.low;
-    for (std::size_t i = 0; i < size; ++i) {
-        const double to = i + 1 < size ? std::min(common.high, crossing(scratch[i], scratch[i + 1]))
-                                       : common.high;
-        if (!(to > from)) continue;
-        const LineDisc& disc = scratch[i];
-        const Slice piece = slice(disc.radius, from - disc.center, to - disc.center);
+    for (std::size_t i = 0; i < bounds.discs.size(); ++i) {
+        const LineDisc& disc = bounds.discs[i];
+        const double to = i + 1 < bounds.discs.size() ? bounds.discs[i + 1].from : bounds.high;
+        const Slice piece = slice(disc.radius, disc.from - disc.center, to - disc.center);
         common.area += piece.area;
         moment += piece.moment + disc.center * piece.area;
-        if (common.edges < CommonArea::kMaxEdges) common.edge[common.edges++] = disc.clip;
-        from = to;
     }
     common.area = std::max(common.area, 0.0);
-    common.middle = common.area > 0 ? std::clamp(moment / common.area, common.low, common.high)
-                                    : 0.5 * (common.low + common.high);
+    if (common.area > 0) {
+        common.middle = std::clamp(moment / common.area, bounds.discs.front().from, bounds.high);
+    }
     return common;
 }
 

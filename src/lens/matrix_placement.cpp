@@ -11,8 +11,6 @@ namespace {
 // A light whose image is so much blurred that no edge of a ghost is left of full height is drawn as
 // a spot: half the width of the edge over the radius of what is open.
 constexpr double kWidestEdge = 0.5;
-// Rays from the middle of the iris measure what is left of it unless it is small.
-constexpr double kLeastForSectors = 0.3;
 
 std::vector<MatrixPath> paths_of(const Lens& lens, const Iris& iris, const Film& film,
                                  std::span<const Bounces> ghosts) {
@@ -40,8 +38,8 @@ MatrixPlacement::MatrixPlacement(const Lens& lens, const Film& film, const Pupil
     : pupil_(pupil),
       film_(film),
       paths_(paths_of(lens, *pupil.iris, film, ghosts)),
-      colors_(lens, *pupil.iris, paths_),
-      sectors_(*pupil.iris) {
+      colors_(lens, *pupil.iris, paths_) {
+    if (!pupil.iris->is_image() && pupil.iris->shape().blades > 0) chords_.emplace(*pupil.iris);
     std::size_t most = 0;
     for (const MatrixPath& path : paths_) most = std::max(most, path.clips.size());
     discs_.resize(most + 1);
@@ -59,6 +57,9 @@ void MatrixPlacement::place(const sources::Light& light, std::span<MatrixGhost> 
     source.slope_y = -light.tan_y;
     source.slope = std::hypot(light.tan_x, light.tan_y);
     source.angle_rad = std::atan(source.slope);
+    source.along_u = source.slope > 0 ? source.slope_x / source.slope : 1;
+    source.along_v = source.slope > 0 ? source.slope_y / source.slope : 0;
+    if (chords_) chords_->turn_to(source.along_u, source.along_v);
     const double cosine = 1 / std::sqrt(1 + source.slope * source.slope);
     bool seen = source.slope <= kLargestSlope;
     bool bright = false;
@@ -127,8 +128,8 @@ bool MatrixPlacement::open_round(const Source& source, const MatrixPath& path, M
         const ClipPath& clip = path.clips[k];
         discs_[size++] = {clip.gamma_x * source.slope, clip.outer(iris), static_cast<int>(k)};
     }
-    const CommonArea common = common_area({discs_.data(), size}, scratch_);
-    if (!(common.area > 0)) return false;
+    BoundingDiscs bounds = bounding_discs({discs_.data(), size}, scratch_);
+    if (bounds.discs.empty()) return false;
     // Of more clips than there is room for, the nearest to the axis of the iris are kept.
     const auto reach_of = [&](int k) {
         const ClipPath& clip = path.clips[static_cast<std::size_t>(k)];
@@ -136,8 +137,8 @@ bool MatrixPlacement::open_round(const Source& source, const MatrixPath& path, M
     };
     int nearest[MatrixGhost::kMaxClips];
     bool iris_cuts = false;
-    for (int e = 0; e < common.edges; ++e) {
-        const int k = common.edge[e];
+    for (const LineDisc& disc : bounds.discs) {
+        const int k = disc.clip;
         iris_cuts = iris_cuts || k < 0 || path.clips[static_cast<std::size_t>(k)].iris;
         if (k < 0) continue;
         int at = ghost.clip_count;
@@ -147,30 +148,42 @@ bool MatrixPlacement::open_round(const Source& source, const MatrixPath& path, M
         for (int j = ghost.clip_count - 1; j > at; --j) nearest[j] = nearest[j - 1];
         nearest[at] = k;
     }
-    for (int j = 0; j < ghost.clip_count; ++j) {
-        ghost.clips[j] = clip_of(source, path, path.clips[static_cast<std::size_t>(nearest[j])]);
+    const auto clips = std::span(nearest).first(static_cast<std::size_t>(ghost.clip_count));
+    for (std::size_t j = 0; j < clips.size(); ++j) {
+        ghost.clips[j] = clip_of(source, path, path.clips[static_cast<std::size_t>(clips[j])]);
     }
-    if (pupil_.has_pictures()) {
-        if (ghost.clip_count == 0 && pupil_.occluder == nullptr) open = whole_;
+    if (clips.empty()) {
+        if (pupil_.occluder == nullptr) open = whole_;
         return true;
     }
-    if (ghost.clip_count == 0) {
-        open = whole_;
-        return true;
-    }
-    bool round_edges = iris.shape().blades == 0;
+    if (pupil_.has_pictures()) return true;
+    double along = 0;
+    double across = 0;
+    bool round_edges = !chords_;
     if (!round_edges && !iris_cuts) {
         // Housings alone are left if what they leave lies within the blades.
         discs_[iris_at].radius = iris.inner_radius();
-        round_edges = common_area({discs_.data(), size}, scratch_).area >= common.area;
+        bounds = bounding_discs({discs_.data(), size}, scratch_);
+        round_edges = std::none_of(bounds.discs.begin(), bounds.discs.end(),
+                                   [](const LineDisc& disc) { return disc.clip < 0; });
     }
     if (round_edges) {
+        const CommonArea common = common_area(bounds);
         open.area = common.area;
-        open.middle_u = common.middle * source.slope_x / source.slope;
-        open.middle_v = common.middle * source.slope_y / source.slope;
-    } else if (common.area > kLeastForSectors) {
-        open = sectors_.open_area({ghost.clips, static_cast<std::size_t>(ghost.clip_count)});
+        along = common.middle;
+    } else {
+        LineClip lines[MatrixGhost::kMaxClips];
+        for (std::size_t j = 0; j < clips.size(); ++j) {
+            const ClipPath& clip = path.clips[static_cast<std::size_t>(clips[j])];
+            lines[j] = {clip.gamma_x * source.slope, clip.radius_u, clip.iris};
+        }
+        const OpenChords chords = chords_->open({lines, clips.size()});
+        open.area = chords.area;
+        along = chords.middle_along;
+        across = chords.middle_across;
     }
+    open.middle_u = along * source.along_u - across * source.along_v;
+    open.middle_v = along * source.along_v + across * source.along_u;
     return true;
 }
 

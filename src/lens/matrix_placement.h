@@ -1,15 +1,16 @@
 // From a light to where its ghosts are and how bright.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "lens/matrix_chords.h"
 #include "lens/matrix_colors.h"
 #include "lens/matrix_ghosts.h"
 #include "lens/matrix_open_area.h"
 #include "lens/matrix_path.h"
 #include "lens/matrix_pupil.h"
-#include "lens/matrix_sectors.h"
 
 namespace aureole::lens {
 
@@ -30,7 +31,8 @@ class MatrixPlacement {
     struct Source {
         double slope_x, slope_y;  // of its rays
         double slope, angle_rad;
-        double irradiance[3];  // on the front, per that of the film
+        double along_u, along_v;  // direction of the slope
+        double irradiance[3];     // on the front, per that of the film
         double moment_xx, moment_xy, moment_yy;
         bool extended;
     };
@@ -48,8 +50,8 @@ class MatrixPlacement {
     std::vector<MatrixPath> paths_;
     MatrixColors colors_;
     std::vector<LineDisc> discs_, scratch_;
-    IrisSectors sectors_;
-    OpenArea whole_;  // of a ghost that nothing clips, without dirt
+    std::optional<IrisChords> chords_;  // of an iris with blades
+    OpenArea whole_;                    // of a ghost that nothing clips, without dirt
 };
 
 }  // namespace aureole::lens
