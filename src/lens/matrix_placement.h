@@ -38,9 +38,13 @@ class MatrixPlacement {
     };
     void place_one(const Source& source, std::size_t index, MatrixGhost& ghost,
                    Entrance& entrance) noexcept;
-    bool open_round(const Source& source, const MatrixPath& path, MatrixGhost& ghost,
+    bool open_round(const Source& source, std::size_t index, MatrixGhost& ghost,
                     OpenArea& open) noexcept;
     bool open_stretched(const Source& source, const MatrixPath& path, MatrixGhost& ghost) noexcept;
+    std::span<const LineDisc> discs_of(std::size_t ghost) const {
+        return std::span(unit_discs_)
+            .subspan(first_disc_[ghost], first_disc_[ghost + 1] - first_disc_[ghost]);
+    }
     static MatrixGhost::Clip clip_of(const Source& source, const MatrixPath& path,
                                      const ClipPath& clip);
     static void blur(const Source& source, const MatrixPath& path, MatrixGhost& ghost);
@@ -49,6 +53,10 @@ class MatrixPlacement {
     Film film_;
     std::vector<MatrixPath> paths_;
     MatrixColors colors_;
+    double iris_reach_ = 1;
+    // Iris and clips of each ghost, for a slope of 1.
+    std::vector<LineDisc> unit_discs_;
+    std::vector<std::size_t> first_disc_;  // of each ghost, and the end
     std::vector<LineDisc> discs_, scratch_;
     std::optional<IrisChords> chords_;  // of an iris with blades
     OpenArea whole_;                    // of a ghost that nothing clips, without dirt
