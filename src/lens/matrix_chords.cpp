@@ -69,10 +69,13 @@ std::vector<Point> outline_of(const Iris& iris) {
 
 }  // namespace
 
+// Of an outline that is not straight, about.
+constexpr int kTangents = 40;
+
 IrisChords::IrisChords(const Iris& iris) : nodes_(chord_nodes()) {
     const int blades = iris.shape().blades;
     const bool sharp = iris.blade_radius() == 0 && iris.shape().smoothing == 0;
-    const int per_blade = sharp ? 1 : kMaxChordLines / blades;
+    const int per_blade = sharp ? 1 : std::max(1, kTangents / blades);
     const int count = blades * per_blade;
     const std::vector<Point> outline = sharp ? std::vector<Point>() : outline_of(iris);
     const Iris::Blade first = iris.blades()[0];

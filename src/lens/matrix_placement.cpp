@@ -170,9 +170,10 @@ bool MatrixPlacement::open_round(const Source& source, std::size_t index, Matrix
     double along = 0;
     double across = 0;
     bool round_edges = !chords_;
-    if (!round_edges && !iris_cuts) {
+    const double inner = pupil_.iris->inner_radius();
+    if (!round_edges && !iris_cuts && bounds.discs.front().from >= -inner && bounds.high <= inner) {
         // Housings alone are left if what they leave lies within the blades.
-        discs_[iris_at].radius = pupil_.iris->inner_radius();
+        discs_[iris_at].radius = inner;
         bounds = bounding_discs({discs_.data(), size}, scratch_);
         round_edges = std::none_of(bounds.discs.begin(), bounds.discs.end(),
                                    [](const LineDisc& disc) { return disc.clip < 0; });
