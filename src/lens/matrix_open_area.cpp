@@ -92,7 +92,7 @@ CommonArea common_area(const BoundingDiscs& bounds) noexcept {
 namespace {
 
 constexpr int kLines = 48;    // where only edges matter
-constexpr int kSamples = 20;  // per side, where pictures do
+constexpr int kSamples = 28;  // per side, where pictures do
 
 struct Interval {
     double low = -1e300;
@@ -149,6 +149,11 @@ void cut_by_iris(Interval& chord, const Iris& iris, double u0, double v0, double
     chord.cut(std::min(a, b), std::max(a, b));
 }
 
+// Along u and v; interpolation reaches half a pixel beyond the border.
+double reach_of_texture(const Image& texture) {
+    return 1 + 1.0 / std::min(texture.width(), texture.height());
+}
+
 // Everything that clips, as chords.
 struct Region {
     const Pupil& pupil;
@@ -162,7 +167,8 @@ struct Region {
           clips(its_clips),
           smooth(is_sampled(*pupil.iris) && !pupil.iris->is_image()),
           sampled(smooth || pupil.has_pictures()),
-          reach(static_cast<double>(pupil.outer_radius(0)) + (smooth ? 0.1 : 0)) {}
+          reach(pupil.texture != nullptr ? reach_of_texture(pupil.texture->front())
+                                         : pupil.iris->outer_radius() + (smooth ? 0.1 : 0)) {}
 
     Interval chord(double v) const {
         Interval chord;
@@ -241,6 +247,35 @@ struct Region {
 
 }  // namespace
 
+OpenArea whole_area(const Pupil& pupil) {
+    if (pupil.texture == nullptr) {
+        OpenArea open = {kPi, 0, 0};  // by definition (iris.h)
+        if (pupil.iris->is_image()) {
+            const OpenArea sampled = open_area({pupil.iris, nullptr, nullptr}, {}, {});
+            open.middle_u = sampled.middle_u;
+            open.middle_v = sampled.middle_v;
+        }
+        return open;
+    }
+    const Image& texture = pupil.texture->front();
+    const double du = 2.0 / texture.width();
+    const double dv = 2.0 / texture.height();
+    OpenArea open;
+    for (int y = 0; y < texture.height(); ++y) {
+        for (int x = 0; x < texture.width(); ++x) {
+            const double area = du * dv * static_cast<double>(texture.at(x, y));
+            open.area += area;
+            open.middle_u += area * ((x + 0.5) * du - 1);
+            open.middle_v += area * (1 - (y + 0.5) * dv);
+        }
+    }
+    if (open.area > 0) {
+        open.middle_u /= open.area;
+        open.middle_v /= open.area;
+    }
+    return open;
+}
+
 OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
                    std::span<const MatrixGhost::Clip> clips) noexcept {
     const Region region(pupil, clips);
@@ -271,7 +306,7 @@ OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
         for (int k = 0; k < kSamples; ++k) {
             const double u = chord.low + (k + 0.5) * step;
             const float share = region.share(entrance, static_cast<float>(u), static_cast<float>(v),
-                                             static_cast<float>(step));
+                                             static_cast<float>(std::sqrt(step * weight)));
             add(weight * step * static_cast<double>(share), u, v);
         }
     }

@@ -34,12 +34,14 @@ struct CommonArea {
 CommonArea common_area(const BoundingDiscs& bounds) noexcept;
 
 // The part of the iris within clips of any kind, in iris units, by quadrature: to 1e-3 of the unit
-// disc where edges are sharp, to 5e-3 where 20 x 20 points look at smooth corners or pictures.
+// disc where edges are sharp, to 5e-3 where 28 x 28 points look at smooth corners or pictures.
 struct OpenArea {
     double area = 0;  // weighted by transmission
     double middle_u = 0, middle_v = 0;
 };
 OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
                    std::span<const MatrixGhost::Clip> clips) noexcept;
+// The same without clips and dirt, exactly.
+OpenArea whole_area(const Pupil& pupil);
 
 }  // namespace aureole::lens

@@ -38,7 +38,8 @@ MatrixPlacement::MatrixPlacement(const Lens& lens, const Film& film, const Pupil
     : pupil_(pupil),
       film_(film),
       paths_(paths_of(lens, *pupil.iris, film, ghosts)),
-      colors_(lens, *pupil.iris, paths_) {
+      colors_(lens, *pupil.iris, paths_),
+      whole_(whole_area(pupil)) {
     if (!pupil.iris->is_image() && pupil.iris->shape().blades > 0) chords_.emplace(*pupil.iris);
     const Iris& iris = *pupil.iris;
     iris_reach_ = pupil.texture != nullptr ? pupil.outer_radius(0) : iris.outer_radius();
@@ -58,10 +59,6 @@ MatrixPlacement::MatrixPlacement(const Lens& lens, const Film& film, const Pupil
     }
     discs_.resize(most);
     scratch_.resize(most);
-    Pupil clean = pupil;
-    clean.occluder = nullptr;
-    whole_ = open_area(clean, {}, {});
-    if (clean.texture == nullptr) whole_ = {kPi, 0, 0};  // by definition (iris.h)
 }
 
 void MatrixPlacement::place(const sources::Light& light, std::span<MatrixGhost> placements,

@@ -106,7 +106,7 @@ TEST(OpenArea, EqualsCountingForClippedIrises) {
                     }
                 }
                 const double tolerance = smoothing > 0 && blades > 0 ? 1e-2 : 3e-3;
-                // Counting is right to about 1e-3; with smooth corners, 20 x 20 points are looked
+                // Counting is right to about 1e-3; with smooth corners, 28 x 28 points are looked
                 // at.
                 EXPECT_NEAR(open.area, area, tolerance) << blades;
                 EXPECT_NEAR(open.area * open.middle_u, middle_u, tolerance);
