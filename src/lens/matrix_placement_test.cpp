@@ -118,7 +118,7 @@ TEST(OpenArea, EqualsCountingForClippedIrises) {
 // By small squares whose edges are shaded.
 OpenChords count_open(const Iris& iris, double along_u, double along_v,
                       std::span<const LineClip> clips) {
-    constexpr int kSide = 320;
+    constexpr int kSide = 240;
     constexpr double kStep = 2.5 / kSide;
     OpenChords open;
     for (int j = 0; j < kSide; ++j) {
@@ -159,7 +159,7 @@ TEST(IrisChords, EqualCounting) {
         const Iris iris(shape);
         IrisChords chords(iris);
         int small = 0;
-        for (int run = 0; run < 60; ++run) {
+        for (int run = 0; run < 36; ++run) {
             const double angle = random.uniform(0, 2 * kPi);
             const double along_u = std::cos(angle);
             const double along_v = std::sin(angle);
