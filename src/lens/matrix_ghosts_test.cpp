@@ -70,7 +70,7 @@ int compare_sums(MatrixScene& scene, const sources::Light& light, double toleran
 
 TEST(MatrixGhosts, SumOfPixelsIsAreaTimesRadiance) {
     const Lens lens(shipped_lens("heliar"), {.f_number = 8});
-    const View view = test_view(lens, 900, 700, 90);
+    const View view = test_view(lens, 600, 460, 90);
     for (const IrisShape& shape : {IrisShape{}, IrisShape{.blades = 6, .rotation_deg = 11},
                                    IrisShape{.blades = 7, .rotation_deg = 3, .curvature = 0.5},
                                    IrisShape{.blades = 5, .smoothing = 0.1}}) {
@@ -83,7 +83,7 @@ TEST(MatrixGhosts, SumOfPixelsIsAreaTimesRadiance) {
 
 TEST(MatrixGhosts, SumOfPixelsOfClippedGhosts) {
     const Lens lens(shipped_lens("biotar"));
-    const View view = test_view(lens, 900, 700, 160);
+    const View view = test_view(lens, 600, 460, 160);
     for (const IrisShape& shape :
          {IrisShape{}, IrisShape{.blades = 6, .rotation_deg = 11},
           IrisShape{.blades = 9, .curvature = 0.5}, IrisShape{.blades = 5, .smoothing = 0.1}}) {
@@ -110,7 +110,7 @@ TEST(MatrixGhosts, SumOfPixelsOfLargeLights) {
 
 TEST(MatrixGhosts, SumOfPixelsWithPicturesInThePupil) {
     const Lens lens(shipped_lens("heliar"), {.f_number = 8});
-    const View view = test_view(lens, 900, 700, 90);
+    const View view = test_view(lens, 600, 460, 90);
     const sources::Light light = test_light(view, 0.02, 0.01);
     // Interpolation between the pyramid's levels, and 28 x 28 samples in placement.
     constexpr double kTolerance = 0.01;
