@@ -94,7 +94,8 @@ TracedRay Tracer::follow(const Bounces& bounces, const Ray& ray, Visit&& visit) 
         const auto hit = intersect(face, {point[0], point[1], point[2] - face.z_mm}, direction);
         if (!hit) return end(step, Fate::kMissed);
         point = {hit->point[0], hit->point[1], hit->point[2] + face.z_mm};
-        const double clip = std::hypot(point[0], point[1]) / face.semi_aperture_mm;
+        const double clip =
+            std::sqrt(point[0] * point[0] + point[1] * point[1]) / face.semi_aperture_mm;
         if (face.stop) {
             result.stop_x_mm = point[0];
             result.stop_y_mm = point[1];
