@@ -24,8 +24,8 @@ struct OpenChords {
 };
 
 // An iris as the common area of half planes, seen along one line through its middle. Straight
-// blades are these half planes. Curved and smooth ones are replaced by tangents, 48 at least, whose
-// polygon is scaled to the area of the iris: to .1 % of its radius.
+// blades are these half planes. Curved and rounded ones are replaced by some 40 tangents, whose
+// polygon is scaled to the area of the iris: its edge is right to .2 % of the radius.
 class IrisChords {
   public:
     // Neither a picture nor round.
@@ -33,8 +33,8 @@ class IrisChords {
 
     // The line runs in this direction (unit).
     void turn_to(double along_u, double along_v) noexcept;
-    // What lies within the iris and all clips, at least one of which is a disc; right to .2 % of
-    // the unit disc, and to 1 % of what is left.
+    // What lies within the iris and all clips, at most MatrixGhost::kMaxClips; right to .1 % of the
+    // unit disc, and to 1 % of what is left.
     OpenChords open(std::span<const LineClip> clips) const noexcept;
 
     // A half plane normal . (u, v) <= distance.

@@ -15,8 +15,8 @@ class RayColors {
     explicit RayColors(const Lens& lens);
 
     // Sums T_g / T_0 (flare.h) over the bands with their RGB weights. All bands take the way of the
-    // d line, which moves angles of incidence by less than reflectances ask for. False if it does
-    // not arrive. `incidences` is scratch.
+    // d line: on the mean within .4 % of each on its own, within some per cent where a face
+    // reflects hardly anything. False if it does not arrive. `incidences` is scratch.
     bool color_of(const Bounces& bounces, const Ray& ray, std::vector<Incidence>& incidences,
                   std::array<double, 3>& color) const;
     bool arrives(const Bounces& bounces, const Ray& ray) const {
