@@ -41,18 +41,6 @@ void LensShow::add_options(CLI::App& command) {
 // Zero means that nothing is stated.
 Json stated(double value) { return value > 0 ? Json(value) : Json(nullptr); }
 
-// What the stop gives as it is printed, whatever f-number is stated; nothing if light through all
-// of it misses a surface.
-std::optional<double> printed_f_number(const lens::Lens& lens) {
-    lens::Prescription table = lens.prescription();
-    table.f_number = 0;
-    try {
-        return lens::Lens(table).f_number();
-    } catch (const InvalidArgument&) {
-        return std::nullopt;
-    }
-}
-
 Json table_json(const lens::Lens& lens) {
     Json rows = Json::array();
     for (const lens::Surface& row : lens.prescription().surfaces) {
@@ -78,7 +66,7 @@ Json facts_of(const lens::Prescription& whole, const std::string& position,
               const lens::Lens& lens) {
     const lens::Prescription& table = lens.prescription();
     const lens::CardinalPoints points = cardinal_points(lens, lens::kLineDNm);
-    const std::optional<double> printed = printed_f_number(lens);
+    const std::optional<double> printed = lens::printed_f_number(lens);
     std::vector<std::string> positions;
     for (const lens::Position& one : whole.positions) positions.push_back(one.name);
     return {{"name", table.name},
@@ -94,6 +82,7 @@ Json facts_of(const lens::Prescription& whole, const std::string& position,
             {"f_number_paraxial", points.f_number},
             {"f_number_stated", stated(table.f_number)},
             {"f_number_printed_stop", printed ? Json(*printed) : Json(nullptr)},
+            {"f_number_printed_stop_paraxial", paraxial_printed_f_number(lens)},
             {"field_stated_deg", stated(table.field_deg)},
             {"stop_surface", lens.stop() + 1},
             {"stop_radius_mm", lens.stop_radius_mm()},
@@ -137,14 +126,18 @@ std::string facts_text(const Json& facts, const std::string& title) {
     text += line("focal length", value("efl_mm") + " mm" + if_stated("efl_stated_mm", " mm"));
     text += line("back focus", value("bfd_mm") + " mm from the last vertex");
     text += line("f-number", "f/" + value("f_number") + if_stated("f_number_stated", "") +
-                                 "; the printed stop gives f/" + value("f_number_printed_stop") +
                                  ", paraxially f/" + value("f_number_paraxial"));
     if (!facts["field_stated_deg"].is_null()) {
         text += line("field", value("field_stated_deg") + " deg (stated)");
     }
-    text += line("stop", fmt::format("surface {}, radius {} mm (printed {} mm)",
-                                     facts["stop_surface"].get<int>(), value("stop_radius_mm"),
-                                     value("stop_printed_radius_mm")));
+    text += line("stop", fmt::format("surface {}, radius {} mm", facts["stop_surface"].get<int>(),
+                                     value("stop_radius_mm")));
+    const std::string exact = facts["f_number_printed_stop"].is_null()
+                                  ? std::string()
+                                  : "f/" + value("f_number_printed_stop") + ", ";
+    text += line("printed stop",
+                 fmt::format("radius {} mm: {}paraxially f/{}", value("stop_printed_radius_mm"),
+                             exact, value("f_number_printed_stop_paraxial")));
     text += line("entrance pupil", value("entrance_pupil_diameter_mm") +
                                        " mm wide, at z = " + value("entrance_pupil_z_mm") + " mm");
     text += line("exit pupil", value("exit_pupil_diameter_mm") +

@@ -56,11 +56,15 @@ class Checker {
         return Lens(table_, {.f_number = f_number, .coating = "none"});
     }
 
-    // EFL over the entrance pupil of the stop as printed; paraxial, as f-numbers are defined.
-    double printed_f_number() const {
-        const auto stop = static_cast<std::size_t>(lens_.stop());
-        return cardinal_points(lens_, kLineDNm).f_number * lens_.stop_radius_mm() /
-               table_.surfaces[stop].semi_aperture_mm;
+    // Of the stop as printed; where rays from its edge are lost in the glass, paraxially.
+    double f_number_as_printed() const {
+        return printed_f_number(lens_).value_or(paraxial_printed_f_number(lens_));
+    }
+    std::string printed_f_number_text() const {
+        const auto exact = printed_f_number(lens_);
+        const double paraxial = paraxial_printed_f_number(lens_);
+        return exact ? fmt::format("f/{:.2f} (paraxially f/{:.2f})", *exact, paraxial)
+                     : fmt::format("f/{:.2f} paraxially", paraxial);
     }
 
     void check_focal_length() {
@@ -78,12 +82,12 @@ class Checker {
     void check_f_number() {
         const double stated = table_.f_number;
         if (stated == 0) return;
-        const double printed = printed_f_number();
+        const double printed = f_number_as_printed();
         if (std::abs(printed / stated - 1) <= kFNumberTolerance) return;
         const auto row = static_cast<std::size_t>(lens_.stop());
         std::string text = fmt::format(
-            "the stop as printed, semi-aperture {:g} mm, gives f/{:.2f}, not the stated f/{:g}",
-            table_.surfaces[row].semi_aperture_mm, printed, stated);
+            "the stop as printed, semi-aperture {:g} mm, gives {}, not the stated f/{:g}",
+            table_.surfaces[row].semi_aperture_mm, printed_f_number_text(), stated);
         try {
             const double needed = at_f_number(stated).stop_radius_mm();
             text +=
@@ -180,14 +184,16 @@ class Checker {
             const bool broken = ends(k) || ends(next) || meeting_point(front, back, 1);
             healed += broken && !meeting_point(front, back, 0.5) ? 1 : 0;
         });
-        const double ratio = table_.f_number == 0 ? 0 : printed_f_number() / table_.f_number;
+        // Paraxial f-numbers are halved by twice the stop exactly.
+        const double printed = paraxial_printed_f_number(lens_);
+        const double ratio = table_.f_number == 0 ? 0 : printed / table_.f_number;
         const bool half = ratio > 0.4 && ratio < 0.6;
         const bool crowded = healed >= 2 && 4 * healed >= pairs;
         if (!half && !(crowded && (ratio == 0 || ratio < 0.8))) return;
         std::string text = "the semi-apertures look like diameters: ";
         if (half) {
-            text += fmt::format("the stop gives f/{:.2f}, about half the stated f/{:g}",
-                                ratio * table_.f_number, table_.f_number);
+            text += fmt::format("the stop gives f/{:.2f} paraxially, about half the stated f/{:g}",
+                                printed, table_.f_number);
         }
         if (crowded) {
             text += fmt::format(
@@ -210,7 +216,7 @@ class Checker {
     }
 
     void check_axial_beam() {
-        const double f_number = table_.f_number != 0 ? table_.f_number : printed_f_number();
+        const double f_number = table_.f_number != 0 ? table_.f_number : f_number_as_printed();
         const double entrance = lens_.efl_mm() / (2 * f_number);
         std::vector<Vector> path;
         Tracer(lens_, kLineDNm).trace(Bounces{}, ray_from_light(0, 0, entrance, 0), &path);

@@ -172,4 +172,21 @@ std::vector<double> Lens::indices(double wavelength_nm) const {
     return indices;
 }
 
+std::optional<double> printed_f_number(const Lens& lens) {
+    Prescription table = lens.prescription();
+    table.f_number = 0;
+    const Lens printed(table);
+    const auto at_stop = height_at_stop(Tracer(printed, kLineDNm), printed.stop(),
+                                        printed.efl_mm() / (2 * printed.f_number()));
+    constexpr double kFilled = 1 - 1e-6;
+    if (!at_stop || *at_stop < kFilled * printed.stop_radius_mm()) return std::nullopt;
+    return printed.f_number();
+}
+
+double paraxial_printed_f_number(const Lens& lens) {
+    const auto stop = static_cast<std::size_t>(lens.stop());
+    return cardinal_points(lens, kLineDNm).f_number * lens.stop_radius_mm() /
+           lens.prescription().surfaces[stop].semi_aperture_mm;
+}
+
 }  // namespace aureole::lens

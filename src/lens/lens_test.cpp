@@ -68,6 +68,16 @@ TEST(Lens, FNumberFromThePrintedStop) {
         EXPECT_NEAR(Lens(any, {.f_number = found.f_number()}).stop_radius_mm(), radius, 1e-9)
             << shipped.id;
     }
+    // It does not depend on what is stated or asked for.
+    const Lens slow(shipped_lens("nikon-28-75"), {.f_number = 11});
+    EXPECT_NEAR(printed_f_number(slow).value(), printed.f_number(), 1e-9);
+    EXPECT_NEAR(paraxial_printed_f_number(slow), cardinal_points(printed, kLineDNm).f_number, 1e-9);
+    // A stop so wide that rays at its edge meet no glass has a paraxial one only.
+    Prescription wide = table;
+    wide.surfaces[static_cast<std::size_t>(printed.stop())].semi_aperture_mm = 90;
+    EXPECT_FALSE(printed_f_number(Lens(wide, {.f_number = 8})).has_value());
+    EXPECT_NEAR(paraxial_printed_f_number(Lens(wide, {.f_number = 8})),
+                0.1 * cardinal_points(printed, kLineDNm).f_number, 1e-9);
     // A table that states one is believed, and the user more.
     EXPECT_EQ(Lens(shipped_lens("nikon-28-75")).f_number(), 2.8);
     EXPECT_EQ(Lens(shipped_lens("nikon-28-75"), {.f_number = 11}).f_number(), 11);

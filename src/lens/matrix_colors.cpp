@@ -4,15 +4,12 @@
 #include <cmath>
 
 #include "aureole/base/parallel.h"
-#include "aureole/color/spectrum.h"
-#include "aureole/lens/glass.h"
-#include "aureole/lens/trace.h"
 #include "lens/matrix_efficiency.h"
+#include "lens/ray_colors.h"
 
 namespace aureole::lens {
 namespace {
 
-constexpr int kBands = 16;
 // Ghosts of less than this share of the energy of all on the axis are left as linear optics has
 // them: most are, and together they hold little.
 constexpr double kLeastShare = 2e-3;
@@ -35,12 +32,6 @@ Opening opening(const MatrixPath& path, const Iris& iris, bool along_y, double s
     return open;
 }
 
-struct Band {
-    Tracer tracer;
-    double axial;  // T_0
-    std::array<double, 3> rgb;
-};
-
 // The ray of a ghost that light from `tangent` (to the right, or up) sends through `u`.
 Ray ray_through(const MatrixPath& path, bool along_y, double tangent, double u) {
     return along_y ? ray_from_light(0, tangent, 0,
@@ -49,31 +40,16 @@ Ray ray_through(const MatrixPath& path, bool along_y, double tangent, double u) 
                                     path.entrance_x * u - path.entrance_shift_x * tangent, 0);
 }
 
-// T_g / T_0 of one ray; false if it does not arrive in some band.
-bool color_of(const MatrixPath& path, std::span<const Band> bands, const Ray& ray,
-              std::array<double, 3>& color) {
-    color = {};
-    for (const Band& band : bands) {
-        const double share = band.tracer.throughput(path.bounces, ray) / band.axial;
-        if (!(share > 0)) return false;
-        for (std::size_t c = 0; c < 3; ++c) color[c] += band.rgb[c] * share;
-    }
-    return true;
-}
-
-// The ray nearest to the middle of the opening that arrives at the sensor, and its colour; false if
-// none does.
-bool color_at(const MatrixPath& path, const Iris& iris, std::span<const Band> bands, bool along_y,
-              double tangent, Ray& ray, std::array<double, 3>& color) {
+// The ray nearest to the middle of the opening that arrives at the sensor; false if none does.
+bool nearest_ray(const MatrixPath& path, const Iris& iris, const RayColors& rays, bool along_y,
+                 double tangent, Ray& ray) {
     const Opening open = opening(path, iris, along_y, -tangent);
     const double middle = 0.5 * (open.low + open.high);
     const double half = std::max(0.5 * (open.high - open.low), 1e-3);
     const auto arrives = [&](double away) {
         const Ray candidate = ray_through(path, along_y, tangent, middle + away * half);
-        std::array<double, 3> its_color;
-        if (!color_of(path, bands, candidate, its_color)) return false;
+        if (!rays.arrives(path.bounces, candidate)) return false;
         ray = candidate;
-        color = its_color;
         return true;
     };
     if (arrives(0)) return true;
@@ -158,8 +134,9 @@ double tangent_at(double step_rad, int node) {
 
 // T_g / T_0 at all angles of one ghost.
 void fill_colors(std::array<float, 3>* nodes, const MatrixPath& path, const Iris& iris,
-                 std::span<const Band> bands, double step_rad) {
+                 const RayColors& rays, double step_rad) {
     std::array<float, 3> latest = {};
+    std::vector<Incidence> scratch;
     const Sampler<3> sampler = {nodes, 1, 0.01F};
     sampler.fill(16, [&](int node) {
         const int meridians = path.round ? 1 : 2;
@@ -169,7 +146,8 @@ void fill_colors(std::array<float, 3>* nodes, const MatrixPath& path, const Iris
             std::array<double, 3> color;
             Ray ray;
             const double tangent = tangent_at(step_rad, node);
-            if (!color_at(path, iris, bands, m == 0, tangent, ray, color)) continue;
+            if (!nearest_ray(path, iris, rays, m == 0, tangent, ray)) continue;
+            rays.color_of(path.bounces, ray, scratch, color);
             for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c];
             ++arrived;
         }
@@ -188,9 +166,10 @@ double energy(const std::array<float, 3>& color, double beam_mm2) {
 
 // Replaces the colours by those that give a ghost the energy of exact rays, at the angles at which
 // linear optics gives it as much as `least_energy`.
-void correct_by_beams(std::array<float, 3>* nodes, const MatrixPath& path,
-                      std::span<const Band> bands, const Tracer& tracer, double step_rad,
+void correct_by_beams(std::array<float, 3>* nodes, const MatrixPath& path, const RayColors& rays,
+                      const ExactBeams& beams, std::size_t ghost, double step_rad,
                       double least_energy) {
+    std::vector<Incidence> scratch;
     constexpr int kStep = 8;
     double linear_mm2[kNodes] = {};
     bool matters = false;
@@ -204,11 +183,11 @@ void correct_by_beams(std::array<float, 3>* nodes, const MatrixPath& path,
     const Sampler<3> sampler = {corrected, kStep, 0.03F};
     sampler.fill(16, [&](int node) {
         if (!(energy(nodes[node], linear_mm2[node]) > least_energy)) return nodes[node];
-        const ExactBeam beam = exact_beam(tracer, path, tangent_at(step_rad, node));
+        const ExactBeam beam = beams.find(ghost, path, tangent_at(step_rad, node));
         std::array<double, 3> sum = {};
         for (int r = 0; r < beam.ray_count; ++r) {
             std::array<double, 3> color;
-            if (!color_of(path, bands, beam.rays[r], color)) continue;
+            if (!rays.color_of(path.bounces, beam.rays[r], scratch, color)) continue;
             for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c] / beam.ray_count;
         }
         std::array<float, 3> result = {};
@@ -223,27 +202,22 @@ void correct_by_beams(std::array<float, 3>* nodes, const MatrixPath& path,
 
 MatrixColors::MatrixColors(const Lens& lens, const Iris& iris, std::span<const MatrixPath> paths)
     : tables_(paths.size()) {
-    std::vector<Band> bands;
-    for (const color::SpectralBand& band : color::sample_spectrum(kBands)) {
-        Tracer tracer(lens, band.wavelength_nm);
-        const double axial = tracer.throughput(Bounces{}, ray_from_light(0, 0, 0, 0));
-        for (std::size_t c = 0; c < 3; ++c) axial_[c] += band.rgb[c] * axial;
-        bands.push_back({std::move(tracer), axial, band.rgb});
-    }
+    const RayColors rays(lens);
+    axial_ = rays.axial_transmission();
     const auto step_of = [&](std::size_t i) {
         return std::atan(paths[i].largest_slope) / (kNodes - 1);
     };
     parallel_for(paths.size(), [&](std::size_t i, int) {
         tables_[i].nodes_per_rad = 1 / step_of(i);
-        fill_colors(tables_[i].rgb, paths[i], iris, bands, step_of(i));
+        fill_colors(tables_[i].rgb, paths[i], iris, rays, step_of(i));
     });
     double on_axis = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         on_axis += energy(tables_[i].rgb[0], linear_beam(paths[i], 0));
     }
-    const Tracer tracer(lens, kLineDNm);
+    const ExactBeams beams(lens, paths);
     parallel_for(paths.size(), [&](std::size_t i, int) {
-        correct_by_beams(tables_[i].rgb, paths[i], bands, tracer, step_of(i),
+        correct_by_beams(tables_[i].rgb, paths[i], rays, beams, i, step_of(i),
                          kLeastShare * on_axis);
     });
 }

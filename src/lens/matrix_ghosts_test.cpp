@@ -59,10 +59,7 @@ int compare_sums(MatrixScene& scene, const sources::Light& light, double toleran
             if (level > 0 && ghost.open_radius_px < 8.0F * static_cast<float>(1 << level)) break;
             if (!inside(ghost, scene.view, level)) continue;
             const double sum = sum_of(scene.draw({{static_cast<int>(g), level}}));
-            // What clips leave of blades is measured by 64 rays.
-            const bool by_rays = scene.iris.shape().blades > 0 && ghost.clip_count > 0;
-            EXPECT_NEAR(sum / static_cast<double>(ghost.energy), 1,
-                        by_rays ? std::max(tolerance, 8e-3) : tolerance)
+            EXPECT_NEAR(sum / static_cast<double>(ghost.energy), 1, tolerance)
                 << "ghost " << g << ", level " << level << ", radius " << ghost.radius_px
                 << ", open " << ghost.open_radius_px << ", clips " << ghost.clip_count;
             ++compared;
@@ -73,29 +70,33 @@ int compare_sums(MatrixScene& scene, const sources::Light& light, double toleran
 
 TEST(MatrixGhosts, SumOfPixelsIsAreaTimesRadiance) {
     const Lens lens(shipped_lens("heliar"), {.f_number = 8});
-    const View view = test_view(lens, 900, 700, 90);
+    const View view = test_view(lens, 600, 460, 90);
     for (const IrisShape& shape : {IrisShape{}, IrisShape{.blades = 6, .rotation_deg = 11},
                                    IrisShape{.blades = 7, .rotation_deg = 3, .curvature = 0.5},
                                    IrisShape{.blades = 5, .smoothing = 0.1}}) {
         MatrixScene scene(lens, view, Iris(shape));
-        // Sampled corners: open_area() itself is right to 1 %.
-        const double tolerance = shape.smoothing > 0 ? 1e-2 : 1e-3;
-        int compared = compare_sums(scene, test_light(view, 0.01, 0.02), tolerance);
-        compared += compare_sums(scene, test_light(view, -0.13, 0.06), tolerance);
+        int compared = compare_sums(scene, test_light(view, 0.01, 0.02), 1e-3);
+        compared += compare_sums(scene, test_light(view, -0.13, 0.06), 1e-3);
         EXPECT_GT(compared, 30) << shape.blades;
     }
 }
 
 TEST(MatrixGhosts, SumOfPixelsOfClippedGhosts) {
     const Lens lens(shipped_lens("biotar"));
-    const View view = test_view(lens, 900, 700, 160);
-    MatrixScene scene(lens, view);
-    int clipped = 0;
-    for (const double tangent : {0.1, 0.2, 0.35}) {
-        EXPECT_GT(compare_sums(scene, test_light(view, tangent, -0.3 * tangent), 1.5e-3), 5);
-        for (const MatrixGhost& ghost : scene.ghosts.placements()) clipped += ghost.clip_count > 0;
+    const View view = test_view(lens, 600, 460, 160);
+    for (const IrisShape& shape :
+         {IrisShape{}, IrisShape{.blades = 6, .rotation_deg = 11},
+          IrisShape{.blades = 9, .curvature = 0.5}, IrisShape{.blades = 5, .smoothing = 0.1}}) {
+        MatrixScene scene(lens, view, Iris(shape));
+        int clipped = 0;
+        for (const double tangent : {0.1, 0.2, 0.35}) {
+            EXPECT_GT(compare_sums(scene, test_light(view, tangent, -0.3 * tangent), 1.5e-3), 5);
+            for (const MatrixGhost& ghost : scene.ghosts.placements()) {
+                clipped += ghost.clip_count > 0;
+            }
+        }
+        EXPECT_GT(clipped, 20) << shape.blades;
     }
-    EXPECT_GT(clipped, 20);
 }
 
 TEST(MatrixGhosts, SumOfPixelsOfLargeLights) {
@@ -109,10 +110,10 @@ TEST(MatrixGhosts, SumOfPixelsOfLargeLights) {
 
 TEST(MatrixGhosts, SumOfPixelsWithPicturesInThePupil) {
     const Lens lens(shipped_lens("heliar"), {.f_number = 8});
-    const View view = test_view(lens, 900, 700, 90);
+    const View view = test_view(lens, 600, 460, 90);
     const sources::Light light = test_light(view, 0.02, 0.01);
-    // Interpolation between the pyramid's levels, and 20 x 20 samples in placement.
-    constexpr double kTolerance = 0.02;
+    // Interpolation between the pyramid's levels, and 28 x 28 samples in placement.
+    constexpr double kTolerance = 0.01;
     MatrixScene image(lens, view, Iris(ring()));
     EXPECT_GT(compare_sums(image, light, kTolerance), 10);
     FlareOptions textured;
@@ -121,7 +122,7 @@ TEST(MatrixGhosts, SumOfPixelsWithPicturesInThePupil) {
     EXPECT_GT(compare_sums(texture, light, kTolerance), 10);
     const Occluder dirt(noise(12, 4), 30);
     MatrixScene dirty(lens, view, Iris(), {}, &dirt);
-    EXPECT_GT(compare_sums(dirty, light, 2 * kTolerance), 10);
+    EXPECT_GT(compare_sums(dirty, light, kTolerance), 10);
     // Half of the light is lost in it.
     MatrixScene clean(lens, view);
     clean.ghosts.place(light);
@@ -283,51 +284,74 @@ TEST(MatrixGhosts, LargeLightIsTheMeanOfPoints) {
     }
 }
 
-// Exact rays through a grid over the front: what share of the light of the source arrives.
+// Part of the plane of the first vertex.
+struct EntranceSquare {
+    double x_mm = 0, y_mm = 0;  // its middle
+    double half_mm = 0;
+};
+
+// Calls visit(i, j, ray) for those of side x side rays of a light that pass.
+template <class Visit>
+void for_passing(const Tracer& tracer, const Bounces& bounces, const sources::Light& light,
+                 const EntranceSquare& square, int side, const Visit& visit) {
+    const double cell = 2 * square.half_mm / side;
+    for (int j = 0; j < side; ++j) {
+        for (int i = 0; i < side; ++i) {
+            const Ray ray = ray_from_light(light.tan_x, light.tan_y,
+                                           square.x_mm - square.half_mm + (i + 0.5) * cell,
+                                           square.y_mm - square.half_mm + (j + 0.5) * cell);
+            if (tracer.trace(bounces, ray).passes()) visit(i, j, ray);
+        }
+    }
+}
+
+// Around all that passes of rays over the front, which holds the beam with room to spare.
+EntranceSquare square_around_beam(const Lens& lens, const Tracer& tracer, const Bounces& bounces,
+                                  const sources::Light& light) {
+    constexpr int kSide = 90;
+    // Light that passes the front crosses its vertex plane a little off.
+    const double front = 1.1 * lens.faces().front().semi_aperture_mm;
+    double low[2] = {front, front};
+    double high[2] = {-front, -front};
+    for_passing(tracer, bounces, light, {0, 0, front}, kSide, [&](int, int, const Ray& ray) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            low[k] = std::min(low[k], ray.origin[k]);
+            high[k] = std::max(high[k], ray.origin[k]);
+        }
+    });
+    return {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]),
+            0.5 * std::max(high[0] - low[0], high[1] - low[1]) + 2 * front / kSide};
+}
+
+// What share of the light of the source arrives, by exact rays.
 double exact_energy(const Lens& lens, const Film& film, const Bounces& bounces,
                     const sources::Light& light, const std::vector<Tracer>& tracers,
                     const std::vector<color::SpectralBand>& bands) {
-    const double front = lens.faces().front().semi_aperture_mm;
-    // Light that passes the front crosses its vertex plane a little off.
-    const double half = 1.1 * front;
-    constexpr int kSide = 360;
+    constexpr int kSide = 120;
     constexpr int kColorStep = 8;
-    const double cell = 2 * half / kSide;
-    std::vector<double> area(kSide);
-    std::vector<double> color(kSide);
-    std::vector<int> colored(kSide);
+    const Tracer& tracer = tracers[bands.size() / 2];
+    const EntranceSquare square = square_around_beam(lens, tracer, bounces, light);
     std::vector<double> axial;
-    for (const Tracer& tracer : tracers) {
-        axial.push_back(tracer.throughput(Bounces{}, ray_from_light(0, 0, 0, 0)));
+    for (const Tracer& of_band : tracers) {
+        axial.push_back(of_band.throughput(Bounces{}, ray_from_light(0, 0, 0, 0)));
     }
-    parallel_for(kSide, [&](std::size_t row, int) {
-        const int j = static_cast<int>(row);
-        for (int i = 0; i < kSide; ++i) {
-            const Ray ray = ray_from_light(light.tan_x, light.tan_y, (i + 0.5) * cell - half,
-                                           (j + 0.5) * cell - half);
-            if (!tracers[bands.size() / 2].trace(bounces, ray).passes()) continue;
-            area[row] += cell * cell;
-            if (i % kColorStep != 0 || j % kColorStep != 0) continue;
-            ++colored[row];
-            for (std::size_t b = 0; b < bands.size(); ++b) {
-                const double share = tracers[b].throughput(bounces, ray) / axial[b];
-                for (std::size_t c = 0; c < 3; ++c) {
-                    color[row] += bands[b].rgb[c] * share * static_cast<double>(light.radiance[c]);
-                }
+    double area = 0;
+    double color = 0;
+    int colored = 0;
+    for_passing(tracer, bounces, light, square, kSide, [&](int i, int j, const Ray& ray) {
+        area += 4 * square.half_mm * square.half_mm / (kSide * kSide);
+        if (i % kColorStep != kColorStep / 2 || j % kColorStep != kColorStep / 2) return;
+        ++colored;
+        for (std::size_t b = 0; b < bands.size(); ++b) {
+            const double share = tracers[b].throughput(bounces, ray) / axial[b];
+            for (std::size_t c = 0; c < 3; ++c) {
+                color += bands[b].rgb[c] * share * static_cast<double>(light.radiance[c]);
             }
         }
     });
-    double total_area = 0;
-    double total_color = 0;
-    int count = 0;
-    for (std::size_t j = 0; j < kSide; ++j) {
-        total_area += area[j];
-        total_color += color[j];
-        count += colored[j];
-    }
-    if (count == 0) return 0;
+    if (colored == 0) return 0;
     const double tangent2 = light.tan_x * light.tan_x + light.tan_y * light.tan_y;
-    return total_area * total_color / count * light.solid_angle_sr / std::sqrt(1 + tangent2) /
+    return area * color / colored * light.solid_angle_sr / std::sqrt(1 + tangent2) /
            (film.irradiance_per_radiance * film.mm_per_px * film.mm_per_px);
 }
 
@@ -351,13 +375,15 @@ TEST(MatrixGhostsSlow, EnergyOfTheStrongestGhostsIsThatOfExactRays) {
         std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
             return placements[a].energy > placements[b].energy;
         });
-        for (std::size_t i = 0; i < 20; ++i) {
-            const std::size_t g = order[i];
-            const double exact =
-                exact_energy(lens, scene.film, scene.list[g], light, tracers, bands);
-            EXPECT_NEAR(static_cast<double>(placements[g].energy) / exact, 1, 0.05)
-                << lens_case.id << " surfaces " << scene.list[g].far + 1 << ", "
-                << scene.list[g].near + 1;
+        constexpr std::size_t kStrongest = 20;
+        std::vector<double> exact(kStrongest);
+        parallel_for(kStrongest, [&](std::size_t i, int) {
+            exact[i] = exact_energy(lens, scene.film, scene.list[order[i]], light, tracers, bands);
+        });
+        for (std::size_t i = 0; i < kStrongest; ++i) {
+            const Bounces& ghost = scene.list[order[i]];
+            EXPECT_NEAR(static_cast<double>(placements[order[i]].energy) / exact[i], 1, 0.04)
+                << lens_case.id << " surfaces " << ghost.far + 1 << ", " << ghost.near + 1;
         }
     }
 }

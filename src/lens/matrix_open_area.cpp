@@ -26,8 +26,9 @@ struct Slice {
 };
 Slice slice(double radius, double from, double to) {
     const double r2 = radius * radius;
-    const double low = std::clamp(from / radius, -1.0, 1.0);
-    const double high = std::clamp(to / radius, -1.0, 1.0);
+    const double per_radius = 1 / radius;
+    const double low = std::clamp(from * per_radius, -1.0, 1.0);
+    const double high = std::clamp(to * per_radius, -1.0, 1.0);
     const double low_root = std::sqrt(1 - low * low);
     const double high_root = std::sqrt(1 - high * high);
     const auto angle = [](double sine) {
@@ -40,57 +41,58 @@ Slice slice(double radius, double from, double to) {
 
 }  // namespace
 
-CommonArea common_area(std::span<const LineDisc> discs, std::span<LineDisc> scratch) noexcept {
-    CommonArea common;
-    common.low = -1e300;
-    common.high = 1e300;
+BoundingDiscs bounding_discs(std::span<const LineDisc> discs,
+                             std::span<LineDisc> scratch) noexcept {
+    double low = -HUGE_VAL;
+    double high = HUGE_VAL;
     for (const LineDisc& disc : discs) {
-        common.low = std::max(common.low, disc.center - disc.radius);
-        common.high = std::min(common.high, disc.center + disc.radius);
+        low = std::max(low, disc.center - disc.radius);
+        high = std::min(high, disc.center + disc.radius);
     }
-    if (!(common.low < common.high)) return common;
+    if (!(low < high)) return {};
     // From left to right the centres of the bounding discs fall.
     std::size_t size = 0;
     for (std::size_t i = discs.size(); i-- > 0;) {
-        const LineDisc& disc = discs[i];
+        LineDisc disc = discs[i];
         bool needed = true;
-        while (size > 0) {
+        for (; size > 0; --size) {
             const LineDisc& last = scratch[size - 1];
             if (last.center == disc.center) {
-                if (last.radius <= disc.radius) {
-                    needed = false;
-                    break;
-                }
-            } else if (size == 1 || crossing(last, disc) > crossing(scratch[size - 2], last)) {
-                break;
+                needed = disc.radius < last.radius;
+                if (!needed) break;
+            } else {
+                disc.from = crossing(last, disc);
+                needed = disc.from < high;
+                if (!needed || disc.from > last.from) break;
             }
-            --size;
         }
+        if (size == 0) disc.from = low;
         if (needed) scratch[size++] = disc;
     }
+    return {scratch.first(size), high};
+}
+
+CommonArea common_area(const BoundingDiscs& bounds) noexcept {
+    CommonArea common;
     double moment = 0;
-    double from = common.low;
-    for (std::size_t i = 0; i < size; ++i) {
-        const double to = i + 1 < size ? std::min(common.high, crossing(scratch[i], scratch[i + 1]))
-                                       : common.high;
-        if (!(to > from)) continue;
-        const LineDisc& disc = scratch[i];
-        const Slice piece = slice(disc.radius, from - disc.center, to - disc.center);
+    for (std::size_t i = 0; i < bounds.discs.size(); ++i) {
+        const LineDisc& disc = bounds.discs[i];
+        const double to = i + 1 < bounds.discs.size() ? bounds.discs[i + 1].from : bounds.high;
+        const Slice piece = slice(disc.radius, disc.from - disc.center, to - disc.center);
         common.area += piece.area;
         moment += piece.moment + disc.center * piece.area;
-        if (common.edges < CommonArea::kMaxEdges) common.edge[common.edges++] = disc.clip;
-        from = to;
     }
     common.area = std::max(common.area, 0.0);
-    common.middle = common.area > 0 ? std::clamp(moment / common.area, common.low, common.high)
-                                    : 0.5 * (common.low + common.high);
+    if (common.area > 0) {
+        common.middle = std::clamp(moment / common.area, bounds.discs.front().from, bounds.high);
+    }
     return common;
 }
 
 namespace {
 
 constexpr int kLines = 48;    // where only edges matter
-constexpr int kSamples = 20;  // per side, where pictures do
+constexpr int kSamples = 28;  // per side, where pictures do
 
 struct Interval {
     double low = -1e300;
@@ -147,6 +149,11 @@ void cut_by_iris(Interval& chord, const Iris& iris, double u0, double v0, double
     chord.cut(std::min(a, b), std::max(a, b));
 }
 
+// Along u and v; interpolation reaches half a pixel beyond the border.
+double reach_of_texture(const Image& texture) {
+    return 1 + 1.0 / std::min(texture.width(), texture.height());
+}
+
 // Everything that clips, as chords.
 struct Region {
     const Pupil& pupil;
@@ -160,7 +167,8 @@ struct Region {
           clips(its_clips),
           smooth(is_sampled(*pupil.iris) && !pupil.iris->is_image()),
           sampled(smooth || pupil.has_pictures()),
-          reach(static_cast<double>(pupil.outer_radius(0)) + (smooth ? 0.1 : 0)) {}
+          reach(pupil.texture != nullptr ? reach_of_texture(pupil.texture->front())
+                                         : pupil.iris->outer_radius() + (smooth ? 0.1 : 0)) {}
 
     Interval chord(double v) const {
         Interval chord;
@@ -239,6 +247,35 @@ struct Region {
 
 }  // namespace
 
+OpenArea whole_area(const Pupil& pupil) {
+    if (pupil.texture == nullptr) {
+        OpenArea open = {kPi, 0, 0};  // by definition (iris.h)
+        if (pupil.iris->is_image()) {
+            const OpenArea sampled = open_area({pupil.iris, nullptr, nullptr}, {}, {});
+            open.middle_u = sampled.middle_u;
+            open.middle_v = sampled.middle_v;
+        }
+        return open;
+    }
+    const Image& texture = pupil.texture->front();
+    const double du = 2.0 / texture.width();
+    const double dv = 2.0 / texture.height();
+    OpenArea open;
+    for (int y = 0; y < texture.height(); ++y) {
+        for (int x = 0; x < texture.width(); ++x) {
+            const double area = du * dv * static_cast<double>(texture.at(x, y));
+            open.area += area;
+            open.middle_u += area * ((x + 0.5) * du - 1);
+            open.middle_v += area * (1 - (y + 0.5) * dv);
+        }
+    }
+    if (open.area > 0) {
+        open.middle_u /= open.area;
+        open.middle_v /= open.area;
+    }
+    return open;
+}
+
 OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
                    std::span<const MatrixGhost::Clip> clips) noexcept {
     const Region region(pupil, clips);
@@ -269,7 +306,7 @@ OpenArea open_area(const Pupil& pupil, const Entrance& entrance,
         for (int k = 0; k < kSamples; ++k) {
             const double u = chord.low + (k + 0.5) * step;
             const float share = region.share(entrance, static_cast<float>(u), static_cast<float>(v),
-                                             static_cast<float>(step));
+                                             static_cast<float>(std::sqrt(step * weight)));
             add(weight * step * static_cast<double>(share), u, v);
         }
     }

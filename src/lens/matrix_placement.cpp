@@ -11,8 +11,6 @@ namespace {
 // A light whose image is so much blurred that no edge of a ghost is left of full height is drawn as
 // a spot: half the width of the edge over the radius of what is open.
 constexpr double kWidestEdge = 0.5;
-// Rays from the middle of the iris measure what is left of it unless it is small.
-constexpr double kLeastForSectors = 0.3;
 
 std::vector<MatrixPath> paths_of(const Lens& lens, const Iris& iris, const Film& film,
                                  std::span<const Bounces> ghosts) {
@@ -41,15 +39,26 @@ MatrixPlacement::MatrixPlacement(const Lens& lens, const Film& film, const Pupil
       film_(film),
       paths_(paths_of(lens, *pupil.iris, film, ghosts)),
       colors_(lens, *pupil.iris, paths_),
-      sectors_(*pupil.iris) {
+      whole_(whole_area(pupil)) {
+    if (!pupil.iris->is_image() && pupil.iris->shape().blades > 0) chords_.emplace(*pupil.iris);
+    const Iris& iris = *pupil.iris;
+    iris_reach_ = pupil.texture != nullptr ? pupil.outer_radius(0) : iris.outer_radius();
     std::size_t most = 0;
-    for (const MatrixPath& path : paths_) most = std::max(most, path.clips.size());
-    discs_.resize(most + 1);
-    scratch_.resize(most + 1);
-    Pupil clean = pupil;
-    clean.occluder = nullptr;
-    whole_ = open_area(clean, {}, {});
-    if (clean.texture == nullptr) whole_ = {kPi, 0, 0};  // by definition (iris.h)
+    first_disc_.push_back(0);
+    for (const MatrixPath& path : paths_) {
+        for (std::size_t k = 0; k < path.clips.size(); ++k) {
+            const ClipPath& clip = path.clips[k];
+            unit_discs_.push_back({clip.gamma_x, clip.outer(iris), static_cast<int>(k)});
+        }
+        unit_discs_.push_back({0, iris_reach_, -1});
+        std::stable_sort(unit_discs_.begin() + static_cast<std::ptrdiff_t>(first_disc_.back()),
+                         unit_discs_.end(),
+                         [](const LineDisc& a, const LineDisc& b) { return a.center < b.center; });
+        first_disc_.push_back(unit_discs_.size());
+        most = std::max(most, path.clips.size() + 1);
+    }
+    discs_.resize(most);
+    scratch_.resize(most);
 }
 
 void MatrixPlacement::place(const sources::Light& light, std::span<MatrixGhost> placements,
@@ -59,6 +68,9 @@ void MatrixPlacement::place(const sources::Light& light, std::span<MatrixGhost> 
     source.slope_y = -light.tan_y;
     source.slope = std::hypot(light.tan_x, light.tan_y);
     source.angle_rad = std::atan(source.slope);
+    source.along_u = source.slope > 0 ? source.slope_x / source.slope : 1;
+    source.along_v = source.slope > 0 ? source.slope_y / source.slope : 0;
+    if (chords_) chords_->turn_to(source.along_u, source.along_v);
     const double cosine = 1 / std::sqrt(1 + source.slope * source.slope);
     bool seen = source.slope <= kLargestSlope;
     bool bright = false;
@@ -103,74 +115,78 @@ MatrixGhost::Clip MatrixPlacement::clip_of(const Source& source, const MatrixPat
 
 // In a system that is the same in both meridians all centres lie on the line through the iris along
 // the light's slope. False: nothing is open. `open` has the pupil's area unless it is left < 0.
-bool MatrixPlacement::open_round(const Source& source, const MatrixPath& path, MatrixGhost& ghost,
+bool MatrixPlacement::open_round(const Source& source, std::size_t index, MatrixGhost& ghost,
                                  OpenArea& open) noexcept {
+    const MatrixPath& path = paths_[index];
     if (source.slope >= path.largest_slope) return false;
     if (source.slope <= path.free_slope) {
         if (pupil_.occluder == nullptr) open = whole_;
         return true;
     }
-    const Iris& iris = *pupil_.iris;
-    const std::size_t count = path.clips.size();
     std::size_t size = 0;
     std::size_t iris_at = 0;
-    bool iris_listed = false;
-    for (std::size_t k = 0; k <= count; ++k) {
-        if (!iris_listed && (k == count || path.clips[k].gamma_x >= 0)) {
-            const double reach =
-                pupil_.texture != nullptr ? pupil_.outer_radius(0) : iris.outer_radius();
+    for (const LineDisc& at_unit_slope : discs_of(index)) {
+        LineDisc disc = at_unit_slope;
+        disc.center *= source.slope;
+        if (disc.clip < 0) {
             iris_at = size;
-            discs_[size++] = {0, reach, -1};
-            iris_listed = true;
+        } else if (std::abs(disc.center) + iris_reach_ <= disc.radius) {
+            continue;  // cuts nothing
         }
-        if (k == count) break;
-        const ClipPath& clip = path.clips[k];
-        discs_[size++] = {clip.gamma_x * source.slope, clip.outer(iris), static_cast<int>(k)};
+        discs_[size++] = disc;
     }
-    const CommonArea common = common_area({discs_.data(), size}, scratch_);
-    if (!(common.area > 0)) return false;
+    BoundingDiscs bounds = bounding_discs({discs_.data(), size}, scratch_);
+    if (bounds.discs.empty()) return false;
     // Of more clips than there is room for, the nearest to the axis of the iris are kept.
-    const auto reach_of = [&](int k) {
-        const ClipPath& clip = path.clips[static_cast<std::size_t>(k)];
-        return clip.outer(iris) - std::abs(clip.gamma_x) * source.slope;
-    };
-    int nearest[MatrixGhost::kMaxClips];
+    const auto reach_of = [](const LineDisc& disc) { return disc.radius - std::abs(disc.center); };
+    const LineDisc* nearest[MatrixGhost::kMaxClips];
     bool iris_cuts = false;
-    for (int e = 0; e < common.edges; ++e) {
-        const int k = common.edge[e];
-        iris_cuts = iris_cuts || k < 0 || path.clips[static_cast<std::size_t>(k)].iris;
-        if (k < 0) continue;
+    for (const LineDisc& disc : bounds.discs) {
+        iris_cuts =
+            iris_cuts || disc.clip < 0 || path.clips[static_cast<std::size_t>(disc.clip)].iris;
+        if (disc.clip < 0) continue;
         int at = ghost.clip_count;
-        while (at > 0 && reach_of(nearest[at - 1]) > reach_of(k)) --at;
+        while (at > 0 && reach_of(*nearest[at - 1]) > reach_of(disc)) --at;
         if (at == MatrixGhost::kMaxClips) continue;
         ghost.clip_count = std::min(ghost.clip_count + 1, MatrixGhost::kMaxClips);
         for (int j = ghost.clip_count - 1; j > at; --j) nearest[j] = nearest[j - 1];
-        nearest[at] = k;
+        nearest[at] = &disc;
     }
-    for (int j = 0; j < ghost.clip_count; ++j) {
-        ghost.clips[j] = clip_of(source, path, path.clips[static_cast<std::size_t>(nearest[j])]);
+    const auto count = static_cast<std::size_t>(ghost.clip_count);
+    LineClip lines[MatrixGhost::kMaxClips];
+    for (std::size_t j = 0; j < count; ++j) {
+        const ClipPath& clip = path.clips[static_cast<std::size_t>(nearest[j]->clip)];
+        ghost.clips[j] = clip_of(source, path, clip);
+        lines[j] = {nearest[j]->center, clip.radius_u, clip.iris};
     }
-    if (pupil_.has_pictures()) {
-        if (ghost.clip_count == 0 && pupil_.occluder == nullptr) open = whole_;
+    if (count == 0) {
+        if (pupil_.occluder == nullptr) open = whole_;
         return true;
     }
-    if (ghost.clip_count == 0) {
-        open = whole_;
-        return true;
-    }
-    bool round_edges = iris.shape().blades == 0;
-    if (!round_edges && !iris_cuts) {
+    if (pupil_.has_pictures()) return true;
+    double along = 0;
+    double across = 0;
+    bool round_edges = !chords_;
+    const double inner = pupil_.iris->inner_radius();
+    if (!round_edges && !iris_cuts && bounds.discs.front().from >= -inner && bounds.high <= inner) {
         // Housings alone are left if what they leave lies within the blades.
-        discs_[iris_at].radius = iris.inner_radius();
-        round_edges = common_area({discs_.data(), size}, scratch_).area >= common.area;
+        discs_[iris_at].radius = inner;
+        bounds = bounding_discs({discs_.data(), size}, scratch_);
+        round_edges = std::none_of(bounds.discs.begin(), bounds.discs.end(),
+                                   [](const LineDisc& disc) { return disc.clip < 0; });
     }
     if (round_edges) {
+        const CommonArea common = common_area(bounds);
         open.area = common.area;
-        open.middle_u = common.middle * source.slope_x / source.slope;
-        open.middle_v = common.middle * source.slope_y / source.slope;
-    } else if (common.area > kLeastForSectors) {
-        open = sectors_.open_area({ghost.clips, static_cast<std::size_t>(ghost.clip_count)});
+        along = common.middle;
+    } else {
+        const OpenChords chords = chords_->open({lines, count});
+        open.area = chords.area;
+        along = chords.middle_along;
+        across = chords.middle_across;
     }
+    open.middle_u = along * source.along_u - across * source.along_v;
+    open.middle_v = along * source.along_v + across * source.along_u;
     return true;
 }
 
@@ -233,7 +249,7 @@ void MatrixPlacement::place_one(const Source& source, std::size_t index, MatrixG
                 static_cast<float>(path.entrance_y)};
     OpenArea open = {-1, 0, 0};
     const bool passes =
-        path.round ? open_round(source, path, ghost, open) : open_stretched(source, path, ghost);
+        path.round ? open_round(source, index, ghost, open) : open_stretched(source, path, ghost);
     if (!passes) return block(ghost);
     if (open.area < 0) {
         open =

@@ -31,7 +31,8 @@ TEST(CommonArea, EqualsCountingForRandomDiscs) {
         std::sort(discs.begin(), discs.end(),
                   [](const LineDisc& a, const LineDisc& b) { return a.center < b.center; });
         std::vector<LineDisc> scratch(discs.size());
-        const CommonArea common = common_area(discs, scratch);
+        const BoundingDiscs bounds = bounding_discs(discs, scratch);
+        const CommonArea common = common_area(bounds);
         double area = 0;
         double moment = 0;
         constexpr int kSteps = 20000;
@@ -52,12 +53,16 @@ TEST(CommonArea, EqualsCountingForRandomDiscs) {
         }
         // Leaving out any disc that is not an edge changes nothing.
         for (int k = 0; common.area > 0 && k < count; ++k) {
-            if (std::count(common.edge, common.edge + common.edges, k) > 0) continue;
+            if (std::any_of(bounds.discs.begin(), bounds.discs.end(),
+                            [&](const LineDisc& disc) { return disc.clip == k; })) {
+                continue;
+            }
             std::vector<LineDisc> fewer;
             for (const LineDisc& disc : discs) {
                 if (disc.clip != k) fewer.push_back(disc);
             }
-            EXPECT_NEAR(common_area(fewer, scratch).area, common.area, 1e-9);
+            std::vector<LineDisc> room(fewer.size());
+            EXPECT_NEAR(common_area(bounding_discs(fewer, room)).area, common.area, 1e-9);
         }
     }
 }
@@ -101,7 +106,7 @@ TEST(OpenArea, EqualsCountingForClippedIrises) {
                     }
                 }
                 const double tolerance = smoothing > 0 && blades > 0 ? 1e-2 : 3e-3;
-                // Counting is right to about 1e-3; with smooth corners, 20 x 20 points are looked
+                // Counting is right to about 1e-3; with smooth corners, 28 x 28 points are looked
                 // at.
                 EXPECT_NEAR(open.area, area, tolerance) << blades;
                 EXPECT_NEAR(open.area * open.middle_u, middle_u, tolerance);
@@ -110,32 +115,80 @@ TEST(OpenArea, EqualsCountingForClippedIrises) {
     }
 }
 
-TEST(IrisSectors, MeasureAsOpenAreaDoes) {
+// By small squares whose edges are shaded.
+OpenChords count_open(const Iris& iris, double along_u, double along_v,
+                      std::span<const LineClip> clips) {
+    constexpr int kSide = 240;
+    constexpr double kStep = 2.5 / kSide;
+    OpenChords open;
+    for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < kSide; ++i) {
+            const double u = (i + 0.5) * kStep - 1.25;
+            const double v = (j + 0.5) * kStep - 1.25;
+            const auto iris_outside = [&](double at_u, double at_v) {
+                return static_cast<double>(
+                           iris.distance(static_cast<float>(at_u), static_cast<float>(at_v))) -
+                       1;
+            };
+            double outside = iris_outside(u, v);
+            for (const LineClip& clip : clips) {
+                const double clip_u = u - clip.center * along_u;
+                const double clip_v = v - clip.center * along_v;
+                outside = std::max(
+                    outside, clip.iris ? std::abs(clip.radius) * iris_outside(clip_u / clip.radius,
+                                                                              clip_v / clip.radius)
+                                       : std::hypot(clip_u, clip_v) - clip.radius);
+            }
+            const double area = kStep * kStep * std::clamp(0.5 - outside / kStep, 0.0, 1.0);
+            open.area += area;
+            open.middle_along += area * (u * along_u + v * along_v);
+            open.middle_across += area * (v * along_u - u * along_v);
+        }
+    }
+    open.middle_along /= open.area;
+    open.middle_across /= open.area;
+    return open;
+}
+
+TEST(IrisChords, EqualCounting) {
     Random random(8);
     for (const IrisShape& shape :
          {IrisShape{.blades = 5, .rotation_deg = 9}, IrisShape{.blades = 8},
-          IrisShape{.blades = 9, .rotation_deg = 2, .curvature = 0.6}}) {
+          IrisShape{.blades = 9, .rotation_deg = 2, .curvature = 0.6},
+          IrisShape{.blades = 6, .smoothing = 0.2}, IrisShape{.blades = 64}}) {
         const Iris iris(shape);
-        const Pupil pupil = {&iris, nullptr, nullptr};
-        const IrisSectors sectors(iris);
-        EXPECT_NEAR(sectors.open_area({}).area, kPi, 1e-6);
-        for (int run = 0; run < 200; ++run) {
-            MatrixGhost::Clip clips[2];
-            for (MatrixGhost::Clip& clip : clips) {
-                clip.u0 = static_cast<float>(random.uniform(-1, 1));
-                clip.v0 = static_cast<float>(random.uniform(-1, 1));
-                clip.ru = clip.rv = static_cast<float>(random.uniform(0.7, 2));
+        IrisChords chords(iris);
+        int small = 0;
+        for (int run = 0; run < 36; ++run) {
+            const double angle = random.uniform(0, 2 * kPi);
+            const double along_u = std::cos(angle);
+            const double along_v = std::sin(angle);
+            chords.turn_to(along_u, along_v);
+            LineClip clips[2];
+            for (LineClip& clip : clips) {
+                clip.center = random.uniform(-1.6, 1.6);
+                clip.radius = random.uniform(0.7, 2);
             }
-            // Curved blades of another crossing count as round.
-            clips[1].iris = shape.curvature == 0;
-            clips[1].ru = clips[1].rv = clips[1].iris ? -clips[1].ru : clips[1].ru;
-            const OpenArea expected = open_area(pupil, {}, clips);
-            const OpenArea open = sectors.open_area(clips);
-            if (expected.area < 0.3) continue;
-            EXPECT_NEAR(open.area, expected.area, 0.005 * kPi) << run;
-            EXPECT_NEAR(open.middle_u, expected.middle_u, 0.02);
-            EXPECT_NEAR(open.middle_v, expected.middle_v, 0.02);
+            // Huge ones are nearly straight.
+            if (run % 3 == 0) {
+                clips[0].radius = random.log_uniform(10, 1000);
+                clips[0].center = clips[0].radius + random.uniform(-0.9, 0.9);
+            }
+            clips[1].iris = run % 2 == 0;
+            if (clips[1].iris && run % 4 == 0) clips[1].radius = -clips[1].radius;
+            const OpenChords open = chords.open(clips);
+            const OpenChords expected = count_open(iris, along_u, along_v, clips);
+            EXPECT_NEAR(open.area, expected.area, 1e-3 * kPi) << run;
+            if (expected.area < 0.02) continue;
+            small += expected.area < 0.3 ? 1 : 0;
+            EXPECT_NEAR(open.area / expected.area, 1, 0.01) << run << ": " << expected.area;
+            EXPECT_NEAR(open.middle_along, expected.middle_along, 3e-3) << run;
+            EXPECT_NEAR(open.middle_across, expected.middle_across, 3e-3) << run;
         }
+        EXPECT_GT(small, 0);
+        // Of the whole iris, whatever the light.
+        const LineClip wide = {0.3, 5, false};
+        EXPECT_NEAR(chords.open({&wide, 1}).area, kPi, 1e-3 * kPi);
     }
 }
 

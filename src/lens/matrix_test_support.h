@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct MatrixScene {
     Iris iris;
     std::vector<Bounces> list;
     MatrixGhosts ghosts;
-    Canvas canvas;
+    std::optional<Canvas> canvas;  // from the first draw() on
 
     MatrixScene(Lens scene_lens, const View& scene_view, Iris scene_iris = Iris(),
                 const FlareOptions& options = {}, const Occluder* occluder = nullptr)
@@ -48,13 +49,13 @@ struct MatrixScene {
           film(lens, view),
           iris(std::move(scene_iris)),
           list(enumerate_ghosts(lens, options.set)),
-          ghosts(lens, iris, film, options, list, occluder),
-          canvas(view.width, view.height) {}
+          ghosts(lens, iris, film, options, list, occluder) {}
 
     Image draw(const std::vector<GhostDraw>& draws) {
         Image out(view.width, view.height, 3);
-        ghosts.draw(draws, canvas);
-        canvas.add_to(out);
+        if (!canvas) canvas.emplace(view.width, view.height);
+        ghosts.draw(draws, *canvas);
+        canvas->add_to(out);
         return out;
     }
     Image draw_all(int level = 0) {

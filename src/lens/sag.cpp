@@ -45,7 +45,9 @@ std::optional<Hit> intersect_conic(const Face& face, const Vector& p, const Vect
     const Vector normal = {-c * w.x * hit[0], -c * w.y * hit[1], 1 - c * stretch * hit[2]};
     // The other half of an ellipsoid, the other sheet of a hyperboloid; infinitely far away.
     if (!(normal[2] > 0) || !std::isfinite(t)) return std::nullopt;
-    return Hit{hit, unit(normal)};
+    // Of a sphere it is as long as 1 already.
+    const bool sphere = face.conic == 0 && face.profile == Profile::kRotational;
+    return Hit{hit, sphere ? normal : unit(normal)};
 }
 
 struct Sag {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lens/polarisation.h"
 #include "lens/sag.h"
 #include "lens/steps.h"
 
@@ -22,20 +23,15 @@ Vector sum(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1],
 Vector unit(const Vector& v) { return scaled(v, 1 / std::sqrt(dot(v, v))); }
 
 // What happens to a ray at one face.
-struct Crossing {
-    const Step& step;
+struct Crossing : Incidence {
     const Face& face;
-    Vector point;  // z from the first vertex
-    Vector normal;
-    Vector direction;  // in which light arrives
     double index_before = 1, index_after = 1;
-    double cos_incidence = 1;
 };
 
 // Layers and indices are those from the front. A lossless stack reflects the same share of light
 // that comes from behind at the angle that it refracts to (reciprocity).
 Reflectance reflectance_at(const Crossing& at, double wavelength_nm) {
-    double cosine = at.cos_incidence;
+    double cosine = at.cosine;
     double front = at.index_before;
     double back = at.index_after;
     if (at.step.backwards) {
@@ -48,60 +44,25 @@ Reflectance reflectance_at(const Crossing& at, double wavelength_nm) {
     return reflectance(front, back, at.face.coating, wavelength_nm, cosine);
 }
 
-// Incoherent light as a coherency matrix (Born & Wolf 10.9) in the directions e and d x e across
-// the ray; real, since phases between the two are left out.
-class Polarisation {
-  public:
-    explicit Polarisation(const Vector& direction) {
-        const Vector least =
-            std::abs(direction[0]) < std::abs(direction[1]) ? Vector{1, 0, 0} : Vector{0, 1, 0};
-        e_ = unit(cross(direction, least));
-    }
-
-    void cross_face(const Crossing& at, const Reflectance& r) {
-        turn_to_plane(at);
-        if (at.step.reflects) {
-            // Both fields are mirrored as near normal incidence does it: seen along the new ray,
-            // one of the two changes its sign.
-            scale(r.s, r.p);
-            ep_ = -ep_;
-        } else {
-            scale(1 - r.s, 1 - r.p);
-        }
-    }
-
-    double energy() const { return ee_ + pp_; }
-
-  private:
-    // Makes e the direction across the plane of incidence.
-    void turn_to_plane(const Crossing& at) {
-        const Vector across = cross(at.direction, at.normal);
-        const double length = std::sqrt(dot(across, across));
-        // At normal incidence s and p are the same.
-        if (length < 1e-12) return;
-        const Vector s = scaled(across, 1 / length);
-        const double cosine = dot(e_, s);
-        const double sine = dot(cross(at.direction, e_), s);
-        const double ee = cosine * cosine * ee_ + 2 * cosine * sine * ep_ + sine * sine * pp_;
-        const double pp = sine * sine * ee_ - 2 * cosine * sine * ep_ + cosine * cosine * pp_;
-        const double ep = (cosine * cosine - sine * sine) * ep_ + cosine * sine * (pp_ - ee_);
-        e_ = s;
-        ee_ = ee;
-        pp_ = pp;
-        ep_ = ep;
-    }
-
-    void scale(double e, double p) {
-        ee_ *= e;
-        pp_ *= p;
-        ep_ *= std::sqrt(e * p);
-    }
-
-    Vector e_ = {};
-    double ee_ = 0.5, pp_ = 0.5, ep_ = 0;
-};
-
 }  // namespace
+
+PolarisationFrame::PolarisationFrame(const Vector& direction) {
+    const Vector least =
+        std::abs(direction[0]) < std::abs(direction[1]) ? Vector{1, 0, 0} : Vector{0, 1, 0};
+    e_ = unit(cross(direction, least));
+}
+
+PolarisationFrame::Turn PolarisationFrame::turn_to_plane(const Vector& direction,
+                                                         const Vector& normal) {
+    const Vector across = cross(direction, normal);
+    const double length = std::sqrt(dot(across, across));
+    // At normal incidence s and p are the same.
+    if (length < 1e-12) return {};
+    const Vector s = scaled(across, 1 / length);
+    const Turn turn = {dot(e_, s), dot(cross(direction, e_), s)};
+    e_ = s;
+    return turn;
+}
 
 Ray ray_from_light(double tan_x, double tan_y, double x_mm, double y_mm) {
     return {{x_mm, y_mm, 0}, unit({-tan_x, -tan_y, 1})};
@@ -133,7 +94,8 @@ TracedRay Tracer::follow(const Bounces& bounces, const Ray& ray, Visit&& visit) 
         const auto hit = intersect(face, {point[0], point[1], point[2] - face.z_mm}, direction);
         if (!hit) return end(step, Fate::kMissed);
         point = {hit->point[0], hit->point[1], hit->point[2] + face.z_mm};
-        const double clip = std::hypot(point[0], point[1]) / face.semi_aperture_mm;
+        const double clip =
+            std::sqrt(point[0] * point[0] + point[1] * point[1]) / face.semi_aperture_mm;
         if (face.stop) {
             result.stop_x_mm = point[0];
             result.stop_y_mm = point[1];
@@ -141,15 +103,11 @@ TracedRay Tracer::follow(const Bounces& bounces, const Ray& ray, Visit&& visit) 
         } else {
             result.housing_clip = std::max(result.housing_clip, clip);
         }
-        Crossing at{.step = step,
-                    .face = face,
-                    .point = point,
-                    .normal = hit->normal,
-                    .direction = direction};
-        at.index_before = indices_[step.backwards ? k + 1 : k];
-        at.index_after = indices_[step.backwards ? k : k + 1];
         const double along_normal = dot(direction, hit->normal);
-        at.cos_incidence = std::abs(along_normal);
+        const Crossing at{{step, point, hit->normal, direction, std::abs(along_normal)},
+                          face,
+                          indices_[step.backwards ? k + 1 : k],
+                          indices_[step.backwards ? k : k + 1]};
         visit(at);
         if (step.reflects) {
             direction = sum(direction, scaled(hit->normal, -2 * along_normal));
@@ -186,12 +144,21 @@ TracedRay Tracer::trace(const Bounces& bounces, const Ray& ray, std::vector<Vect
     return result;
 }
 
+TracedRay Tracer::trace(const Bounces& bounces, const Ray& ray,
+                        std::vector<Incidence>& incidences) const {
+    incidences.clear();
+    return follow(bounces, ray, [&](const Crossing& at) { incidences.push_back(at); });
+}
+
 double Tracer::throughput(const Bounces& bounces, const Ray& ray) const {
-    Polarisation light(ray.direction);
+    PolarisationFrame frame(ray.direction);
+    Coherency<double, 1> light;
     const TracedRay result = follow(bounces, ray, [&](const Crossing& at) {
-        light.cross_face(at, reflectance_at(at, wavelength_nm_));
+        const Reflectance r = reflectance_at(at, wavelength_nm_);
+        light.turn(frame.turn_to_plane(at.direction, at.normal));
+        at.step.reflects ? light.reflect({r.s}, {r.p}) : light.transmit({r.s}, {r.p});
     });
-    return result.fate == Fate::kArrived ? light.energy() : 0;
+    return result.fate == Fate::kArrived ? light.energy(0) : 0;
 }
 
 }  // namespace aureole::lens

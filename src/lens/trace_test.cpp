@@ -369,5 +369,41 @@ TEST(Trace, NeverNaN) {
     }
 }
 
+TEST(Trace, IncidencesTellWhatARayMeets) {
+    const Lens lens(shipped_lens("biotar"), {.f_number = 8});
+    const Tracer tracer(lens, 550);
+    const Bounces ghost = enumerate_ghosts(lens, GhostSet::kAll)[7];
+    const Ray ray = ray_from_light(0.05, 0.03, 2, -1);
+    std::vector<Incidence> met;
+    const TracedRay result = tracer.trace(ghost, ray, met);
+    ASSERT_EQ(result.fate, Fate::kArrived);
+    EXPECT_EQ(result.x_mm, tracer.trace(ghost, ray).x_mm);
+    const std::vector<Step> steps = steps_of(lens, ghost);
+    ASSERT_EQ(met.size(), steps.size());
+    const std::vector<double> index = lens.indices(550);
+    for (std::size_t k = 0; k < met.size(); ++k) {
+        EXPECT_EQ(met[k].step.face, steps[k].face);
+        EXPECT_EQ(met[k].step.reflects, steps[k].reflects);
+        const Vector next = k + 1 < met.size() ? met[k + 1].direction : result.direction;
+        // The same sine on both sides, times the indices; and it flies on along its direction.
+        const auto dot = [](const Vector& a, const Vector& b) {
+            return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        };
+        const double incidence = dot(met[k].direction, met[k].normal);
+        EXPECT_NEAR(std::abs(incidence), met[k].cosine, 1e-12);
+        const auto face = static_cast<std::size_t>(met[k].step.face);
+        const bool back = met[k].step.backwards;
+        const double before = index[back ? face + 1 : face];
+        const double after = met[k].step.reflects ? before : index[back ? face : face + 1];
+        EXPECT_NEAR(before * std::sqrt(1 - incidence * incidence),
+                    after * std::sqrt(1 - std::pow(dot(next, met[k].normal), 2)), 1e-9);
+        if (k + 1 == met.size()) continue;
+        for (std::size_t c = 0; c < 2; ++c) {
+            const double flown = (met[k + 1].point[2] - met[k].point[2]) / next[2];
+            EXPECT_NEAR(met[k].point[c] + flown * next[c], met[k + 1].point[c], 1e-9);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace aureole::lens

@@ -11,7 +11,7 @@ namespace aureole::lens {
 struct Finding {
     enum class Kind {
         kFocalLength,   // computed and stated focal length differ by more than 2 %
-        kFNumber,       // the printed stop gives another f-number (EFL / entrance pupil), by 5 %
+        kFNumber,       // the printed stop gives another f-number than the stated one, by 5 %
         kSemiAperture,  // a semi-aperture above the radius of curvature
         kCrossing,      // neighbouring surfaces meet inside their clear apertures
         kNoDispersion,  // glass without Abbe number or catalogue name

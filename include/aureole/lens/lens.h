@@ -6,6 +6,7 @@
 // the sensor at (X, Y) is seen in the picture at (-X, -Y).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -58,6 +59,9 @@ class Lens {
     // The same for one medium.
     double index(int medium, double wavelength_nm) const;
 
+    // EFL over the width of the beam on the axis that fills the stop, by exact rays: what is asked
+    // for, and what the light that passes goes by. The paraxial one (paraxial.h), of the same stop,
+    // differs by the spherical aberration of the pupil.
     double f_number() const noexcept { return f_number_; }
     double stop_radius_mm() const noexcept {
         return faces_[static_cast<std::size_t>(stop_)].semi_aperture_mm;
@@ -75,5 +79,10 @@ class Lens {
     double f_number_ = 0;
     double efl_mm_ = 0;
 };
+
+// The f-number that the table's printed stop gives, whatever is stated or asked for: by exact rays,
+// as f_number() is, nothing if those at its edge do not get through the glass; and paraxially.
+std::optional<double> printed_f_number(const Lens& lens);
+double paraxial_printed_f_number(const Lens& lens);
 
 }  // namespace aureole::lens

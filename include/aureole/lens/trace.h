@@ -45,6 +45,15 @@ struct TracedRay {
     bool passes() const { return fate == Fate::kArrived && housing_clip <= 1 && stop_clip <= 1; }
 };
 
+// What a ray meets at one face.
+struct Incidence {
+    Step step;
+    Vector point = {};      // z from the first vertex
+    Vector normal = {};     // unit, of the surface
+    Vector direction = {};  // in which light arrives
+    double cosine = 1;      // of the angle of incidence, >= 0
+};
+
 class Tracer {
   public:
     // Keeps a copy of what it needs.
@@ -54,6 +63,9 @@ class Tracer {
     // and on the sensor, the origin first; of a ray that ends before, up to where it was refused.
     TracedRay trace(const Bounces& bounces, const Ray& ray,
                     std::vector<Vector>* path = nullptr) const;
+    // The same; `incidences` receives what it meets at each crossing up to where it ends.
+    TracedRay trace(const Bounces& bounces, const Ray& ray,
+                    std::vector<Incidence>& incidences) const;
     // The share of energy that is left of a ray of unpolarised light when it arrives: the product
     // of R or T = 1 - R at the real angles of all crossings, R at the two bounces; both
     // polarisations are carried through the turning planes of incidence of a skew ray (without
