@@ -184,15 +184,22 @@ HWY_INLINE void note(const Four& four, Notes& notes, int at) {
     hn::StoreU(four.bottom, d, notes.bottom + at);
 }
 
-// The same without the lanes outside of `kept`; how many were kept. CompressStore would write those
-// only, by masked stores that are many times slower on some machines; there is room for all.
+// The same without the lanes outside of `kept`; how many were kept. Mostly it is all or none.
 HWY_INLINE int note_some(const Four& four, M kept, Notes& notes, int at) {
+    const D d;
     const auto kept_i = hn::RebindMask(DI(), kept);
+    if (hn::AllFalse(d, kept)) return 0;
+    if (hn::AllTrue(d, kept)) {
+        note(four, notes, at);
+        return kLanes;
+    }
+    // CompressStore would write kept lanes only, by masked stores that are many times slower on
+    // some machines; there is room for all.
     note({hn::Compress(four.texel, kept_i), hn::Compress(four.stride, kept_i),
           hn::Compress(four.right, kept), hn::Compress(four.top, kept),
           hn::Compress(four.bottom, kept)},
          notes, at);
-    return static_cast<int>(hn::CountTrue(D(), kept));
+    return static_cast<int>(hn::CountTrue(d, kept));
 }
 
 // Left texel in the lower half, right one in the upper; or both in turn where vectors are short,
