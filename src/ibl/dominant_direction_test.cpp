@@ -23,7 +23,7 @@ using std::max;
 using std::sqrt;
 
 #define float double
-#include "../../shaders/ibl/dominant_direction.glsl"
+#include "ibl/dominant_direction.glsl"
 #undef float
 
 }  // namespace glsl
