@@ -56,7 +56,7 @@ function(aureole_module name)
     if(AUREOLE_BUILD_TESTS AND tests)
         add_executable(${name}_test ${tests})
         target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/src
-                                   ${PROJECT_SOURCE_DIR}/tests)
+                                   ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/shaders)
         target_link_libraries(${name}_test PRIVATE ${target} ${arg_PRIVATE_LIBS} ${arg_TEST_LIBS}
                               aureole_options GTest::gtest_main GTest::gmock)
         gtest_discover_tests(${name}_test NO_PRETTY_VALUES TEST_FILTER "-*Slow.*"

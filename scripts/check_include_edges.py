@@ -8,7 +8,7 @@ The allowed edges are the aureole_module() calls of CMakeLists.txt, which the bu
     in its DEPENDS (named themselves, not only reached through others), private headers of M alone;
   - a module may depend only on those declared above it;
   - a public header includes no third-party header; a .cpp those of M's PRIVATE_LIBS, a test
-    those of its TEST_LIBS as well;
+    those of its TEST_LIBS as well, and shaders, which it compiles as C++;
   - apps/, bench/, examples/ and tests/ include public headers only, and files beside them;
   - the table in docs/architecture.md says the same as CMakeLists.txt.
 Prints one line per offence, "FILE:LINE: reason", and exits with 1 if there is any.
@@ -111,6 +111,7 @@ def check_module_file(root, path, name, modules):
     module = modules[name]
     public = (root / "include") in path.parents
     is_test = path.stem.endswith("_test")
+    folders = [root / "src"] + [root / "tests", root / "shaders"] * is_test
     libs = module.private_libs + (module.test_libs + ["GTest"] if is_test else [])
     for number, angled, header in includes(path):
         owner = re.match(r"aureole/(\w+)/", header) or re.match(r"(\w+)/", header)
@@ -133,7 +134,7 @@ def check_module_file(root, path, name, modules):
             reason = f"a public header may not include the private {header}"
         elif owner and owner[1] in modules and owner[1] != name:
             reason = f"{name} may not include {header}: it is private to {owner[1]}"
-        elif not is_neighbour(path, header, [root / "src"] + [root / "tests"] * is_test):
+        elif not is_neighbour(path, header, folders):
             reason = f"{header} is neither in src/ nor beside this file"
         if reason:
             yield f"{path.relative_to(root)}:{number}: {reason}"

@@ -89,7 +89,7 @@ Entry entry(int index, Random& random, int size) {
 TEST(BrdfTable, GgxIsTheMeanOverVisibleNormals) {
     const BrdfTable table(BrdfTableKind::kGgx);
     Random random(1);
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 9; ++i) {
         const Entry e = entry(i, random, table.size());
         const auto [all, fresnel] = ggx_by_visible_normals(e.n_dot_v, e.alpha);
         EXPECT_NEAR(table.image().row(e.y, 0)[e.x], all - fresnel, 3e-4) << e.x << " " << e.y;
@@ -100,7 +100,7 @@ TEST(BrdfTable, GgxIsTheMeanOverVisibleNormals) {
 TEST(BrdfTable, ClothIsTheIntegralOverHalfVectors) {
     const BrdfTable table(BrdfTableKind::kCloth);
     Random random(2);
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 9; ++i) {
         const Entry e = entry(i, random, table.size());
         const double expected = cloth_by_half_vectors(e.n_dot_v, e.alpha);
         EXPECT_NEAR(table.image().row(e.y, 0)[e.x], expected, 1e-4 * (1 + expected))
@@ -108,21 +108,25 @@ TEST(BrdfTable, ClothIsTheIntegralOverHalfVectors) {
     }
 }
 
-// At alpha = 1, D = 1 / pi and V = 1 / (2 (N.l + N.v)): 1 - N.v ln((1 + N.v) / N.v) in all.
+// At alpha = 1, D = 1 / pi and V = 1 / (2 (N.l + N.v)): 1 - N.v ln((1 + N.v) / N.v) in all. The
+// last two rows lead there.
 TEST(BrdfTable, RoughestGgxIsKnownInClosedForm) {
-    const BrdfTable table(BrdfTableKind::kMultiscatter, 512);
-    for (const double v : {.1, .3, .5, .8, .99}) {
-        EXPECT_NEAR(table.lookup(v, 1)[1], 1 - v * std::log((1 + v) / v), 1e-3) << v;
+    const BrdfTable table(BrdfTableKind::kMultiscatter);
+    for (const int x : {0, 10, 40, 90, 127}) {
+        const double v = (x + .5) / 128;
+        const double last = table.image().row(127, 1)[x];
+        const double before = table.image().row(126, 1)[x];
+        EXPECT_NEAR(last + (last - before) / 2, 1 - v * std::log((1 + v) / v), 1e-4) << x;
     }
 }
 
 // A mirror reflects Schlick's term and nothing is lost.
 TEST(BrdfTable, SmoothestGgxIsAMirror) {
-    const BrdfTable table(BrdfTableKind::kGgx, 256);
-    for (const int x : {0, 10, 100, 255}) {
-        const double mirror = std::pow(1 - (x + .5) / 256, 5);
-        EXPECT_NEAR(table.image().row(0, 1)[x], mirror, 1e-4) << x;
-        EXPECT_NEAR(table.image().row(0, 0)[x], 1 - mirror, 1e-4) << x;
+    const BrdfTable table(BrdfTableKind::kGgx);
+    for (const int x : {0, 5, 50, 127}) {
+        const double mirror = std::pow(1 - (x + .5) / 128, 5);
+        EXPECT_NEAR(table.image().row(0, 1)[x], mirror, 2e-4) << x;
+        EXPECT_NEAR(table.image().row(0, 0)[x], 1 - mirror, 2e-4) << x;
     }
 }
 
@@ -143,9 +147,9 @@ TEST(BrdfTable, MultiscatterHoldsTheSameIntegrals) {
 TEST(BrdfTable, CompensatedWhiteSurfaceReflectsEverything) {
     const BrdfTable table(BrdfTableKind::kMultiscatter);
     Random random(3);
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < 5; ++i) {
         const double n_dot_v = random.uniform(.05, 1);
-        const double roughness = random.uniform(.1, 1);
+        const double roughness = random.uniform(.1, .996);
         const double once = ggx_by_visible_normals(n_dot_v, alpha_from_roughness(roughness))[0];
         const auto [dfg1, dfg2] = table.lookup(n_dot_v, roughness);
         EXPECT_NEAR(once * (1 + 1 * (1 / dfg2 - 1)), 1, 1e-3) << n_dot_v << " " << roughness;

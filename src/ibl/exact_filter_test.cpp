@@ -115,9 +115,9 @@ TEST(ExactFilter, IsTheDirectSum) {
             map.at(2, size / 2, size / 3, 1) = 1e5F;
             const Direction sun = texel_direction(2, size / 2, size / 3, size);
             const ExactFilter exact(map);
-            for (int i = 0; i < 3; ++i) {
+            for (int i = 0; i < 2; ++i) {
                 const Direction n = normalized(
-                    {sun.x + .3 * i * random.normal(), sun.y, sun.z + .3 * i * random.normal()});
+                    {sun.x + .5 * i * random.normal(), sun.y, sun.z + .5 * i * random.normal()});
                 const auto expected = direct_sum(map, n, alpha, 192 / size);
                 const auto actual = exact.at(n, alpha);
                 for (std::size_t c = 0; c < 3; ++c) {
@@ -133,7 +133,7 @@ TEST(ExactFilter, IsTheDirectSum) {
 TEST(ExactFilter, LevelsAreTheSameAsSingleDirections) {
     const CubeMap map = sun_environment(64);
     const ExactFilter exact(map);
-    for (const double alpha : {.02, .25, 1.0}) {
+    for (const double alpha : {.05, .3, 1.0}) {
         for (const int size : {3, 12}) {
             const CubeMap level = filtered(map, alpha, size);
             const double mean = mean_radiance(level)[2];
