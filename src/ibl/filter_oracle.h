@@ -38,8 +38,8 @@ class FilterOracle {
                 std::max(0.0, std::sqrt(2 - 2 * dot(n, patch.middle)) - patch.radius);
             if (texel < kFar * (a2 + (1 - a2) * gap * gap / 4)) {
                 for (std::size_t i = patch.first; i < patch.end; ++i) {
-                    const double w = solid_angle_[i] *
-                                     weight(n.x * x_[i] + n.y * y_[i] + n.z * z_[i]);
+                    const double w =
+                        solid_angle_[i] * weight(n.x * x_[i] + n.y * y_[i] + n.z * z_[i]);
                     for (std::size_t c = 0; c < 3; ++c) sum[c] += w * radiance_[c][i];
                     sum[3] += w;
                 }
@@ -48,9 +48,12 @@ class FilterOracle {
             for (std::size_t i = patch.first; i < patch.end; ++i) {
                 const double cosine = n.x * x_[i] + n.y * y_[i] + n.z * z_[i];
                 const double relative = texel / (1 - (1 - a2) * (1 + cosine) / 2);
-                const int parts = relative < 2e-3 ? 1 : relative < 1e-2 ? 2 : relative < .2 ? 6 : 16;
-                const double w = near_weight(patch, static_cast<int>(i - patch.first), parts, n,
-                                             weight);
+                const int parts = relative < 2e-3   ? 1
+                                  : relative < 1e-2 ? 2
+                                  : relative < .2   ? 6
+                                                    : 16;
+                const double w =
+                    near_weight(patch, static_cast<int>(i - patch.first), parts, n, weight);
                 for (std::size_t c = 0; c < 3; ++c) sum[c] += w * radiance_[c][i];
                 sum[3] += w;
             }
@@ -74,8 +77,8 @@ class FilterOracle {
     void add_patch(int face, int x0, int y0) {
         Patch patch{face, x0, y0, std::min(kPatchSide, size_ - x0), x_.size(), 0, {}, 0};
         const int height = std::min(kPatchSide, size_ - y0);
-        patch.middle = texel_direction(face, x0 + 0.5 * (patch.width - 1), y0 + 0.5 * (height - 1),
-                                       size_);
+        patch.middle =
+            texel_direction(face, x0 + 0.5 * (patch.width - 1), y0 + 0.5 * (height - 1), size_);
         for (int y = y0; y < y0 + height; ++y) {
             for (int x = x0; x < x0 + patch.width; ++x) {
                 const Direction d = texel_direction(face, x, y, size_);

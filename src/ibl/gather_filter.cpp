@@ -1,5 +1,5 @@
 // Prefiltering by a hierarchical gather: see docs/environment_filtering.md.
-#include <cmath>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -13,30 +13,30 @@
 namespace aureole::ibl {
 namespace {
 
+// A lobe whose alpha is less than this many texels blurs nothing that a texel could show; it is
+// taken as that wide, which bounds the parts into which texels are split.
+constexpr double kNarrowestLobe = 0.1;
+
 class GatherFilter : public LevelFilter {
   public:
     GatherFilter(int size, const std::vector<FilteredLevel>& levels, FilterQuality quality)
-        : tree_(size), kernels_(gather_kernels()), scratch_(static_cast<std::size_t>(max_workers())) {
+        : tree_(size),
+          kernels_(gather_kernels()),
+          scratch_(static_cast<std::size_t>(max_workers())) {
+        const double narrowest = kNarrowestLobe / tree_.levels().front().nodes_per_side;
         for (const FilteredLevel& level : levels) {
             sizes_.push_back(level.size);
-            limits_.push_back(gather_lobe(level.alpha, quality));
+            unit_lobes_.push_back(gather_lobe(std::max(level.alpha, narrowest), quality));
         }
-        lobes_ = limits_;
-        for (int outputs = 1; outputs <= kTileSide; ++outputs) interpolations_.emplace_back(outputs);
-    }
-
-    ~GatherFilter() override {
-        if (std::getenv("STATS")) for (auto& s : scratch_) if (s.visited)
-            fprintf(stderr, "visited %ld far %ld near %ld deferred %ld\n", s.visited, s.nfar, s.nnear, s.ndef);
+        lobes_ = unit_lobes_;
+        for (int outputs = 1; outputs <= kTileSide; ++outputs)
+            interpolations_.emplace_back(outputs);
     }
 
     void prepare(const CubeMap& environment) noexcept override {
         tree_.build(environment);
-        const auto mean = static_cast<float>(tree_.mean_luminance());
         for (std::size_t i = 0; i < lobes_.size(); ++i) {
-            lobes_[i].most_error = limits_[i].most_error * limits_[i].total * mean;
-            lobes_[i].most_interpolation_error = limits_[i].most_interpolation_error * limits_[i].total * mean;
-            lobes_[i].most_horizon_error = limits_[i].most_horizon_error * limits_[i].total * mean;
+            lobes_[i] = scaled_to(unit_lobes_[i], tree_.mean_luminance());
         }
     }
 
@@ -55,8 +55,8 @@ class GatherFilter : public LevelFilter {
     RadianceTree tree_;
     const GatherKernels& kernels_;
     std::vector<int> sizes_;
-    std::vector<GatherLobe> limits_;  // for an environment whose mean luminance is 1 / total
-    std::vector<GatherLobe> lobes_;
+    std::vector<GatherLobe> unit_lobes_;
+    std::vector<GatherLobe> lobes_;  // for the environment that was prepared
     std::vector<Interpolation> interpolations_;
     std::vector<GatherScratch> scratch_;
 };

@@ -24,21 +24,19 @@ void gather_tile(const std::vector<RadianceLevel>& levels, const GatherLobe& lob
     Stack deferred = {scratch.deferred, 0};
     Records far = {scratch.far, 0, &sums.far};
     const auto finish_deferred = [&] {
-        scratch.ndef += deferred.count;
         for (int i = 0; i < tile.quarter_count; ++i) {
             Records near = {scratch.near, 0, &sums.near[i]};
-            const CutTask task = {levels, lobe, quarters[i], scratch};
+            const CutTask task = {levels, lobe, quarters[i]};
             for (int k = 0; k < deferred.count; ++k) {
                 Stack stack = {scratch.near_stack, 1};
                 stack.refs[0] = deferred.refs[k];
                 cut<kShape, false>(task, stack, near, nullptr);
             }
-            scratch.nnear += near.count;
             add_records<kShape>(lobe, near.list, near.count, quarters[i], *near.sums);
         }
         deferred.count = 0;
     };
-    const CutTask task = {levels, lobe, whole, scratch};
+    const CutTask task = {levels, lobe, whole};
     const int last = static_cast<int>(levels.size()) - 1;
     const RadianceLevel& roots = levels.back();
     for (int face = 0; face < kFaces; ++face) {
@@ -54,7 +52,6 @@ void gather_tile(const std::vector<RadianceLevel>& levels, const GatherLobe& lob
         }
     }
     finish_deferred();
-    scratch.nfar += far.count;
     add_records<kShape>(lobe, far.list, far.count, whole, *far.sums);
 }
 

@@ -50,7 +50,7 @@ struct GatherRecord {
     float x, y, z;
     float base;  // q (or, for the cosine, N.L) for an output in the middle of the group
     float r, g, b;
-    float variance;  // of |N - L|^2 / 2 over the node, but for what depends on N
+    float variance;  // three times that of L across itself, in the direction of the group
 };
 
 // Some of the nodes of one block.
@@ -71,7 +71,6 @@ struct GatherScratch {
     BlockRef deferred[kDeferred];
     BlockRef stack[kStack];
     BlockRef near_stack[kStack];
-    long visited, nfar, nnear, ndef;  // XXX
 };
 
 struct GatherKernels {

@@ -114,7 +114,8 @@ HWY_INLINE void add_record(const GatherLobe& lobe, const GatherRecord& node, V16
         const V16 estimate = hn::ApproximateReciprocal(square);
         const V16 r = hn::Mul(estimate, hn::NegMulAdd(square, estimate, set16(2)));
         if constexpr (kShape == LobeShape::kWide) {
-            cosine = hn::MulAdd(hn::Mul(set16(lobe.c1 * (2.0F / 3)), variance), hn::Mul(q, r), cosine);
+            cosine =
+                hn::MulAdd(hn::Mul(set16(lobe.c1 * (2.0F / 3)), variance), hn::Mul(q, r), cosine);
         }
         weight = hn::Mul(hn::Max(cosine, hn::Zero(d)), r);
     }
@@ -132,13 +133,12 @@ void add_records(const GatherLobe& lobe, const GatherRecord* nodes, int count,
         Light a = {hn::Load(d, sums.r + i), hn::Load(d, sums.g + i), hn::Load(d, sums.b + i)};
         Light b = {hn::Load(d, sums.r + j), hn::Load(d, sums.g + j), hn::Load(d, sums.b + j)};
         for (int k = 0; k < count; ++k) {
-            add_record<kShape>(lobe, nodes[k], hn::Load(d, points.x + i),
-                                hn::Load(d, points.y + i), hn::Load(d, points.z + i),
-                                hn::Load(d, points.base + i), a);
+            add_record<kShape>(lobe, nodes[k], hn::Load(d, points.x + i), hn::Load(d, points.y + i),
+                               hn::Load(d, points.z + i), hn::Load(d, points.base + i), a);
             if constexpr (kTogether == 2) {
                 add_record<kShape>(lobe, nodes[k], hn::Load(d, points.x + j),
-                                    hn::Load(d, points.y + j), hn::Load(d, points.z + j),
-                                    hn::Load(d, points.base + j), b);
+                                   hn::Load(d, points.y + j), hn::Load(d, points.z + j),
+                                   hn::Load(d, points.base + j), b);
             }
         }
         if constexpr (kTogether == 2) {

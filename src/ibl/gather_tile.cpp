@@ -75,17 +75,16 @@ void store_tile(const TileSums& sums, const Interpolation& columns, const Interp
         for (int y = 0; y < tile.height; ++y) {
             const float* w = rows.weight[y];
             for (int j = 0; j < kGroupSide; ++j) {
-                lines[y][j] = (w[0] * at_points[j] + w[1] * at_points[kGroupSide + j]) +
-                              (w[2] * at_points[2 * kGroupSide + j] +
-                               w[3] * at_points[3 * kGroupSide + j]);
+                lines[y][j] =
+                    (w[0] * at_points[j] + w[1] * at_points[kGroupSide + j]) +
+                    (w[2] * at_points[2 * kGroupSide + j] + w[3] * at_points[3 * kGroupSide + j]);
             }
         }
         for (int y = 0; y < tile.height; ++y) {
             float* row = out.row(tile.face, tile.y + y, c) + tile.x;
             const float* line = lines[y];
             for (int x = 0; x < tile.width; ++x) {
-                const int quarter =
-                    y / kGroupSide * quarters(tile.width) + x / kGroupSide;
+                const int quarter = y / kGroupSide * quarters(tile.width) + x / kGroupSide;
                 const int lane = y % kGroupSide * kGroupSide + x % kGroupSide;
                 const GroupSums& group = sums.near[quarter];
                 const float* const near = c == 0 ? group.r : c == 1 ? group.g : group.b;

@@ -68,8 +68,8 @@ void join_row(const RadianceLevel& children, const RadianceLevel& parents, int f
 RadianceTree::RadianceTree(int size) : subdivision_((kFewestNodes + size - 1) / size) {
     for (int nodes = size * subdivision_;; nodes = (nodes + 1) / 2) {
         const int per_side = (nodes + 1) / 2;
-        const auto count = static_cast<std::size_t>(kFaces * per_side) *
-                           static_cast<std::size_t>(per_side);
+        const auto count =
+            static_cast<std::size_t>(kFaces * per_side) * static_cast<std::size_t>(per_side);
         storage_.emplace_back(count);
         levels_.push_back({storage_.back().data(), nodes, per_side});
         if (nodes <= kMostRoots) break;

@@ -39,8 +39,8 @@ struct RadianceLevel {
     int per_side = 0;
 
     RadianceBlock* row(int face, int y) const {
-        return blocks + static_cast<std::size_t>(face * per_side + y) *
-                            static_cast<std::size_t>(per_side);
+        return blocks +
+               static_cast<std::size_t>(face * per_side + y) * static_cast<std::size_t>(per_side);
     }
 };
 

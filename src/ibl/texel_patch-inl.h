@@ -43,25 +43,22 @@ HWY_INLINE Patches texel_patches(const FaceFrame& frame, V4 s, V4 t, float side)
     const V4 curve_ih2 = hn::Mul(curve, hn::Mul(ih, ih));
     const V4 density = hn::MulAdd(curve_ih2, hn::MulSub(set4(9), h, set4(15)), one);
     const V4 scale = hn::Div(root, density);
-    const V4 along =
-        hn::Mul(scale, hn::MulAdd(curve_ih2, hn::MulSub(set4(8), h, set4(24)), one));
+    const V4 along = hn::Mul(scale, hn::MulAdd(curve_ih2, hn::MulSub(set4(8), h, set4(24)), one));
     const V4 inwards = hn::Mul(hn::Mul(scale, curve), hn::Mul(set4(8), ih));
     const V4 on_axis = hn::Add(along, inwards);
     const V4 along_s = hn::Mul(along, s);
     const V4 along_t = hn::Mul(along, t);
     const auto component = [&](int i) {
-        return hn::MulAdd(on_axis, set4(frame.axis[i]),
-                          hn::MulAdd(along_s, set4(frame.right[i]),
-                                     hn::Mul(along_t, set4(frame.down[i]))));
+        return hn::MulAdd(
+            on_axis, set4(frame.axis[i]),
+            hn::MulAdd(along_s, set4(frame.right[i]), hn::Mul(along_t, set4(frame.down[i]))));
     };
     Patches patches;
     patches.x = component(0);
     patches.y = component(1);
     patches.z = component(2);
-    patches.moment =
-        hn::Mul(set4(side * side / 12), hn::Mul(hn::Add(h, one), hn::Mul(ih, ih)));
-    patches.solid_angle_sr =
-        hn::Mul(hn::Mul(set4(side * side), density), hn::Mul(ih, root));
+    patches.moment = hn::Mul(set4(side * side / 12), hn::Mul(hn::Add(h, one), hn::Mul(ih, ih)));
+    patches.solid_angle_sr = hn::Mul(hn::Mul(set4(side * side), density), hn::Mul(ih, root));
     return patches;
 }
 

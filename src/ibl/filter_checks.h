@@ -1,0 +1,122 @@
+// How tests compare a filter with the truth.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "aureole/base/parallel.h"
+#include "aureole/base/random.h"
+#include "ibl/filter_oracle.h"
+#include "ibl/level_filter.h"
+
+namespace aureole::ibl {
+
+struct Output {
+    int face = 0;
+    int x = 0;
+    int y = 0;
+};
+
+inline double luminance_of(const std::array<double, 3>& rgb) {
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+inline double luminance_at(const CubeMap& map, const Output& at) {
+    return luminance_of({map.at(at.face, at.x, at.y, 0), map.at(at.face, at.x, at.y, 1),
+                         map.at(at.face, at.x, at.y, 2)});
+}
+
+inline std::vector<CubeMap> filtered_levels(const CubeMap& environment,
+                                            const std::vector<FilteredLevel>& levels,
+                                            FilterQuality quality) {
+    const auto filter = make_gather_filter(environment.size(), levels, quality);
+    filter->prepare(environment);
+    std::vector<CubeMap> maps;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        CubeMap& map = maps.emplace_back(levels[k].size);
+        parallel_for(static_cast<std::size_t>(tile_count(map.size())),
+                     [&](std::size_t i, int worker) {
+                         filter->filter(static_cast<int>(k),
+                                        tile_at(static_cast<int>(i), map.size()), worker, map);
+                     });
+    }
+    return maps;
+}
+
+// Luminances that `outputs` of a level of `size` texels per side should have.
+inline std::vector<double> true_luminances(const FilterOracle& oracle, double alpha, int size,
+                                           const std::vector<Output>& outputs) {
+    std::vector<double> values(outputs.size());
+    parallel_for(outputs.size(), [&](std::size_t i, int) {
+        const Output& at = outputs[i];
+        values[i] =
+            luminance_of(oracle.filtered(texel_direction(at.face, at.x, at.y, size), alpha));
+    });
+    return values;
+}
+
+inline std::vector<Output> all_outputs(int size) {
+    std::vector<Output> outputs;
+    for (int face = 0; face < kFaces; ++face) {
+        for (int y = 0; y < size; ++y) {
+            for (int x = 0; x < size; ++x) outputs.push_back({face, x, y});
+        }
+    }
+    return outputs;
+}
+
+inline std::vector<Output> random_outputs(int size, int count) {
+    Random random(11, static_cast<std::uint64_t>(size));
+    std::vector<Output> outputs;
+    for (int i = 0; i < count; ++i) {
+        outputs.push_back({static_cast<int>(random.uniform() * kFaces),
+                           static_cast<int>(random.uniform() * size),
+                           static_cast<int>(random.uniform() * size)});
+    }
+    return outputs;
+}
+
+// Root mean square error of luminance over some outputs, in means of the whole level. All outputs
+// around the lightest texel of the environment count, and the others by a random sample of them: a
+// lobe around a sun covers too few outputs for a sample.
+inline double relative_rms_error(const CubeMap& environment, const FilterOracle& oracle,
+                                 const CubeMap& level, double alpha, int count) {
+    constexpr int kAround = 6;
+    const int size = level.size();
+    Output lightest;
+    for (const Output& at : all_outputs(environment.size())) {
+        if (luminance_at(environment, at) > luminance_at(environment, lightest)) lightest = at;
+    }
+    lightest.x = lightest.x * size / environment.size();
+    lightest.y = lightest.y * size / environment.size();
+    const auto is_around = [&](const Output& at) {
+        return at.face == lightest.face && std::abs(at.x - lightest.x) <= kAround &&
+               std::abs(at.y - lightest.y) <= kAround;
+    };
+    std::vector<Output> around;
+    std::vector<Output> others;
+    double mean = 0;
+    const auto everything = all_outputs(size);
+    for (const Output& at : everything) {
+        mean += luminance_at(level, at) / static_cast<double>(everything.size());
+        if (is_around(at)) around.push_back(at);
+    }
+    for (const Output& at : random_outputs(size, count)) {
+        if (!is_around(at)) others.push_back(at);
+    }
+    const auto mean_square = [&](const std::vector<Output>& outputs) {
+        const auto truth = true_luminances(oracle, alpha, size, outputs);
+        double sum = 0;
+        for (std::size_t i = 0; i < outputs.size(); ++i) {
+            sum += std::pow(luminance_at(level, outputs[i]) - truth[i], 2);
+        }
+        return outputs.empty() ? 0 : sum / static_cast<double>(outputs.size());
+    };
+    const double share =
+        static_cast<double>(around.size()) / static_cast<double>(everything.size());
+    return std::sqrt(share * mean_square(around) + (1 - share) * mean_square(others)) / mean;
+}
+
+}  // namespace aureole::ibl
