@@ -134,21 +134,8 @@ int PictureSource::rows_at_once(int most) const {
     return spec_.tile_width > 0 ? std::max(1, most / spec_.tile_height) * spec_.tile_height : most;
 }
 
-void PictureSource::reopen() {
-    input_ = open_input(path_);
-    const OIIO::ImageSpec& now = input_->spec();
-    if (now.width != spec_.width || now.height != spec_.height ||
-        now.nchannels != spec_.nchannels || now.format != spec_.format) {
-        throw FileError(path_, "changed while it was read");
-    }
-}
-
 void PictureSource::read(int begin, int end, int first_channel, Image& image, int top,
                          std::vector<std::vector<std::uint32_t>>* ids) {
-    // Decoders that went past a row start anew by themselves, but forget how they were opened.
-    if (!exr_ && begin < next_row_) reopen();
-    next_row_ = end;
-
     const int end_channel = first_channel + image.channels();
     std::vector<std::size_t> offsets;
     std::size_t pixel_bytes = 0;

@@ -36,14 +36,12 @@ class PictureSource {
     // `first_channel` on, into the rows of `image` from `top` on. begin is a multiple of
     // rows_at_once(), and so is end unless it is the height. Where ids[c] is not empty, it gets the
     // values of the uint channel c besides, one per pixel of `image`.
-    // Rows may be asked for in any order; going back in a file other than EXR starts it anew.
+    // Rows may be asked for in any order; going back in a file other than EXR decodes it anew.
     // Throws FileError for truncated or damaged files.
     void read(int begin, int end, int first_channel, Image& image, int top,
               std::vector<std::vector<std::uint32_t>>* ids = nullptr);
 
   private:
-    void reopen();
-
     std::string path_;
     std::unique_ptr<OIIO::ImageInput> input_;
     OIIO::ImageSpec spec_;
@@ -51,7 +49,6 @@ class PictureSource {
     bool exr_ = false;
     std::size_t part_ = 0;
     std::size_t parts_ = 1;
-    int next_row_ = 0;
     std::vector<std::byte> buffer_;
 };
 

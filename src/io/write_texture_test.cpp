@@ -52,21 +52,20 @@ std::array<double, 3> nearest_shared(const std::array<double, 3>& rgb) {
 }
 
 std::vector<double> expected(TexelFormat format, const Image& image, int x, int y) {
-    std::vector<double> values(static_cast<std::size_t>(image.channels()));
-    for (int c = 0; c < image.channels(); ++c) {
-        values[static_cast<std::size_t>(c)] = double{image.at(x, y, c)};
+    const bool filled = format == TexelFormat::kHalf || format == TexelFormat::kFloat;
+    const auto channels = static_cast<std::size_t>(image.channels());
+    std::vector<double> values(filled && channels == 3 ? 4 : channels, 1.0);
+    for (std::size_t c = 0; c < channels; ++c) {
+        values[c] = double{image.at(x, y, static_cast<int>(c))};
+        if (format == TexelFormat::kHalf) values[c] = nearest(values[c], 16, true);
+        if (format == TexelFormat::kR11G11B10) {
+            values[c] = nearest(values[c], c == 2 ? 10 : 11, false);
+        }
     }
     if (format == TexelFormat::kRgb9e5) {
         const auto shared = nearest_shared({values[0], values[1], values[2]});
-        return {shared.begin(), shared.end()};
+        std::copy(shared.begin(), shared.end(), values.begin());
     }
-    for (std::size_t c = 0; c < values.size(); ++c) {
-        if (format == TexelFormat::kHalf) values[c] = nearest(values[c], 16, true);
-        if (format == TexelFormat::kR11G11B10)
-            values[c] = nearest(values[c], c == 2 ? 10 : 11, false);
-    }
-    const bool filled = format == TexelFormat::kHalf || format == TexelFormat::kFloat;
-    if (filled && values.size() == 3) values.push_back(1);
     return values;
 }
 
