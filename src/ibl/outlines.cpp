@@ -15,6 +15,8 @@ constexpr double kSmallTurn_rad = 0.03;
 constexpr double kNear = 0.2;
 // Closer to the axis than this there is no longitude.
 constexpr double kPole = 1e-24;
+// Half the columns between two points of a piece below which one in the middle does.
+constexpr double kUpright = 0.1;
 // Nodes of the rule of Gauss and Legendre for two points on [0, 1].
 constexpr double kGauss = 0.21132486540518712;
 
@@ -204,7 +206,7 @@ void Outlines::add_arc(const Vertex& a, const Vertex& b, double sign) {
     add_monotonic(top, b, {q.x - m.x, q.y - m.y, q.z - m.z}, sign);
 }
 
-// mu rises or falls throughout. One point for each strip.
+// mu rises or falls throughout. In each strip, a point or two.
 void Outlines::add_monotonic(const Vertex& a, const Vertex& b, const Direction& along,
                              double sign) {
     const double last_mu = b.direction.y;
@@ -234,10 +236,20 @@ void Outlines::add_monotonic(const Vertex& a, const Vertex& b, const Direction& 
             const double slope_a = std::abs(mu.slope(ta));
             const double slope_b = std::abs(mu.slope(tb));
             const double slopes = slope_a + slope_b;
-            const double mean =
-                slopes > 0 ? (slope_a * column.value(ta) + slope_b * column.value(tb)) / slopes
-                           : column.value(ta);
-            push(std::clamp(mean, leftmost, rightmost), mu0, mu1, r, sign);
+            const double column_a = column.value(ta);
+            const double column_b = column.value(tb);
+            const double mean = slopes > 0 ? (slope_a * column_a + slope_b * column_b) / slopes
+                                           : 0.5 * (column_a + column_b);
+            const double middle = std::clamp(mean, leftmost, rightmost);
+            const double half = 0.5 * (column_b - column_a);
+            if (std::abs(half) < kUpright) {
+                push(middle, mu0, mu1, 0.5, 1, r, sign);
+            } else {
+                const double room = std::min(middle - leftmost, rightmost - middle);
+                const double aside = std::clamp(half, -room, room);
+                push(middle - aside, mu0, mu1, kGauss, 0.5, r, sign);
+                push(middle + aside, mu0, mu1, 1 - kGauss, 0.5, r, sign);
+            }
         }
         if (last) break;
         t0 = t1;
@@ -296,16 +308,17 @@ void Outlines::cut_to_pole(double mu, double column, bool north, int turns) {
         if (low >= high) continue;
         const double from = north ? low : high;
         const double to = north ? high : low;
-        push(column + grid_.width, from, to, r, turns);
-        push(column, from, to, r, -turns);
+        push(column + grid_.width, from, to, 0.5, 1, r, turns);
+        push(column, from, to, 0.5, 1, r, -turns);
     }
 }
 
-void Outlines::push(double column, double mu0, double mu1, int r, double sign) {
+void Outlines::push(double column, double mu0, double mu1, double place, double share, int r,
+                    double sign) {
     const auto i = static_cast<std::size_t>(r);
-    const double middle = 0.5 * (mu0 + mu1);
+    const double mu = mu0 + place * (mu1 - mu0);
     points_.push_back(
-        {column, sign * (mu1 - mu0), (grid_.node_mu[i] - middle) * grid_.per_strip[i], r});
+        {column, sign * share * (mu1 - mu0), (grid_.node_mu[i] - mu) * grid_.per_strip[i], r});
 }
 
 }  // namespace aureole::ibl

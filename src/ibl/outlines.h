@@ -5,10 +5,10 @@
 //     integral of L dcolumn dmu = contour integral of Q dmu,   Q = integral of L dcolumn,
 //
 // Q being the running sum of a row. Outlines are cut where they cross from one strip into the
-// next; on each piece, Q is taken at the mean column of the piece. As Q is linear in mu within a
-// strip, what is equal on both sides of a texel (all that lies to its left) cancels exactly; and as
-// neighbours share their border with opposite signs, one gains what the other loses by
-// approximation: the energy of the whole is exact.
+// next; on each piece, Q is taken in the middle, or at two points about it. As Q is linear in mu
+// within a strip, what is equal on both sides of a texel (all that lies to its left) cancels
+// exactly; and as neighbours share their border with opposite signs, one gains what the other loses
+// by approximation: the energy of the whole is exact.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@
 
 namespace aureole::ibl {
 
-// One piece of an outline.
+// Of one piece of an outline.
 struct OutlinePoint {
     double column = 0;    // not wrapped: outlines are continuous
     double weight = 0;    // of Q there: its length in mu, with sign
@@ -63,7 +63,9 @@ class Outlines {
     void add_arc(const Vertex& a, const Vertex& b, double sign);
     void add_monotonic(const Vertex& a, const Vertex& b, const Direction& along, double sign);
     void cut_to_pole(double mu, double column, bool north, int turns);
-    void push(double column, double mu0, double mu1, int r, double sign);
+    // `share` of the piece from mu0 to mu1 in strip r, at `place` between the two.
+    void push(double column, double mu0, double mu1, double place, double share, int r,
+              double sign);
 
     const LatLongGrid& grid_;
     const Rotation& rotation_;
