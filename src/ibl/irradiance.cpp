@@ -1,9 +1,11 @@
 #include "aureole/ibl/irradiance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "aureole/base/buffer.h"
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "ibl/irradiance_kernels.h"
@@ -35,14 +37,13 @@ struct Level {
 }  // namespace
 
 struct Irradiance::Impl {
-    int parts = 1;                        // of a texel, per side
-    int fine = 0;                         // parts along a face
-    std::vector<IrradianceBlock> blocks;  // of one face
-    std::vector<Level> levels;            // the first has one node per block
+    int parts = 1;              // of a texel, per side
+    int fine = 0;               // parts along a face
+    std::vector<Level> levels;  // the first has one node per block
     std::size_t nodes_per_face = 0;
     std::vector<Node> nodes;
     std::vector<FaceFrame> frames;
-    const CubeMap* environment = nullptr;
+    std::vector<IrradianceBlock, AlignedAllocator<IrradianceBlock>> blocks;  // of all faces
 
     explicit Impl(int size) {
         parts = (kFinestSize + size - 1) / size;
@@ -54,8 +55,7 @@ struct Irradiance::Impl {
             if (side == 1) break;
         }
         nodes.resize(kFaces * nodes_per_face);
-        blocks.resize(static_cast<std::size_t>(tile_count(fine) / kFaces));
-        parallel_for(blocks.size(), [&](std::size_t i, int) { set_block(static_cast<int>(i)); });
+        blocks.resize(static_cast<std::size_t>(tile_count(fine)));
         for (std::size_t level = 0; level < levels.size(); ++level) set_cones(level);
     }
 
@@ -65,26 +65,6 @@ struct Irradiance::Impl {
     }
 
     double coordinate(double place) const { return 2 * place / fine - 1; }
-
-    void set_block(int index) {
-        const Tile tile = tile_at(index, fine);
-        IrradianceBlock& block = blocks[static_cast<std::size_t>(index)];
-        block = {};
-        for (int y = 0; y < tile.height; ++y) {
-            for (int x = 0; x < tile.width; ++x) {
-                const int at = y * kTileSide + x;
-                const TexelShape shape = texel_shape(coordinate(tile.x + x + .5),
-                                                     coordinate(tile.y + y + .5), 1.0 / fine);
-                block.solid_angle_sr[at] =
-                    static_cast<float>(texel_solid_angle_sr(tile.x + x, tile.y + y, fine));
-                for (int k = 0; k < 3; ++k) {
-                    block.mean[k][at] = shape.moments.mean[k];
-                    block.along_s[k][at] = shape.spread.along_s[k];
-                    block.along_t[k][at] = shape.spread.along_t[k];
-                }
-            }
-        }
-    }
 
     void set_cones(std::size_t level) {
         const int texels = kTileSide << level;
@@ -105,31 +85,43 @@ struct Irradiance::Impl {
         }
     }
 
-    void load(int face, const Tile& tile, float (&radiance)[3][kTileTexels]) const {
+    void load(const CubeMap& environment, const Tile& tile, IrradianceBlock& block) const {
+        block.s = static_cast<float>(coordinate(tile.x + .5));
+        block.t = static_cast<float>(coordinate(tile.y + .5));
+        block.side = static_cast<float>(2.0 / fine);
         for (int c = 0; c < 3; ++c) {
+            float* to = block.radiance[c];
+            std::fill_n(to, kTileTexels, 0.0F);
             for (int y = 0; y < tile.height; ++y) {
-                const float* row = environment->row(face, (tile.y + y) / parts, c);
-                float* to = radiance[c] + y * kTileSide;
-                for (int x = 0; x < tile.width; ++x) to[x] = row[(tile.x + x) / parts];
+                const float* row = environment.row(tile.face, (tile.y + y) / parts, c);
+                for (int x = 0; x < tile.width; ++x) {
+                    to[y * kTileSide + x] = row[(tile.x + x) / parts];
+                }
             }
         }
     }
 
-    void sum_block(int face, int index) {
-        const Tile tile = tile_at(index, fine);
-        const IrradianceBlock& block = blocks[static_cast<std::size_t>(index)];
-        alignas(64) float radiance[3][kTileTexels] = {};
-        load(face, tile, radiance);
-        Node& to = node(face, 0, tile.x / kTileSide, tile.y / kTileSide);
-        for (int c = 0; c < 3; ++c) {
-            for (int k = 0; k < 3; ++k) {
-                double sum = 0;
-                for (int i = 0; i < kTileTexels; ++i) {
-                    sum += static_cast<double>(radiance[c][i]) * block.solid_angle_sr[i] *
-                           block.mean[k][i];
+    // As the kernel does for a block that is not cut, in double.
+    void sum_block(const Tile& tile, const IrradianceBlock& block) {
+        const double area = 4.0 / fine / fine;
+        double sum[3][3] = {};
+        for (int y = 0; y < tile.height; ++y) {
+            for (int x = 0; x < tile.width; ++x) {
+                const double s = coordinate(tile.x + x + .5);
+                const double t = coordinate(tile.y + y + .5);
+                const double r = 1 / (1 + s * s + t * t);
+                const double across = area * r * r * (1 + area / 24 * r * (8 - 24 * r));
+                const double along = area * r * r * (1 + area / 24 * r * (16 - 24 * r));
+                const double vector[3] = {s * across, t * across, along};
+                for (int c = 0; c < 3; ++c) {
+                    const double radiance = block.radiance[c][y * kTileSide + x];
+                    for (int k = 0; k < 3; ++k) sum[c][k] += radiance * vector[k];
                 }
-                to.vector[c][k] = static_cast<float>(sum);
             }
+        }
+        Node& to = node(tile.face, 0, tile.x / kTileSide, tile.y / kTileSide);
+        for (int c = 0; c < 3; ++c) {
+            for (int k = 0; k < 3; ++k) to.vector[c][k] = static_cast<float>(sum[c][k]);
         }
     }
 
@@ -160,6 +152,9 @@ struct Irradiance::Impl {
         };
         const Node* of_face = nodes.data() + static_cast<std::size_t>(face) * nodes_per_face;
 
+        const IrradianceBlock* of_face_blocks =
+            blocks.data() + static_cast<std::size_t>(face) * (blocks.size() / kFaces);
+
         struct Place {
             int level, x, y;
         };
@@ -176,10 +171,7 @@ struct Irradiance::Impl {
             if (mu >= node.sine) {
                 for (int c = 0; c < 3; ++c) rgb[c] += along(node.vector[c]);
             } else if (place.level == 0) {
-                alignas(64) float radiance[3][kTileTexels] = {};
-                load(face, tile_at(index, fine), radiance);
-                add_irradiance_of_block()(blocks[static_cast<std::size_t>(index)], radiance, n,
-                                          rgb);
+                add_irradiance_of_block()(of_face_blocks[index], n, rgb);
             } else {
                 const int below = levels[static_cast<std::size_t>(place.level) - 1].side;
                 for (int y = 2 * place.y; y < std::min(2 * place.y + 2, below); ++y) {
@@ -205,10 +197,10 @@ Irradiance& Irradiance::operator=(Irradiance&&) noexcept = default;
 
 void Irradiance::prepare(const CubeMap& environment) noexcept {
     Impl& impl = *impl_;
-    impl.environment = &environment;
-    const std::size_t blocks = impl.blocks.size();
-    parallel_for(kFaces * blocks, [&](std::size_t i, int) {
-        impl.sum_block(static_cast<int>(i / blocks), static_cast<int>(i % blocks));
+    parallel_for(impl.blocks.size(), [&](std::size_t i, int) {
+        const Tile tile = tile_at(static_cast<int>(i), impl.fine);
+        impl.load(environment, tile, impl.blocks[i]);
+        impl.sum_block(tile, impl.blocks[i]);
     });
     parallel_for(kFaces, [&](std::size_t face, int) {
         for (std::size_t level = 1; level < impl.levels.size(); ++level) {

@@ -12,27 +12,49 @@ HWY_BEFORE_NAMESPACE();
 namespace aureole::ibl::HWY_NAMESPACE {
 namespace {
 
-void add_block(const IrradianceBlock& block, const float (&radiance)[3][kTileTexels],
-               const float (&normal)[3], double (&rgb)[3]) {
+// Integrals over a texel of side k about (s, t), with h = 1 + s^2 + t^2: of dw, k^2 h^(-3/2); of L
+// dw, (s, t, 1) k^2 h^-2; each with the second-order term of the midpoint rule, k^2 / 24 times the
+// Laplacian. Across the texel N.L changes by +-(N - (N.L) L) (k / 2, 0, 0) / sqrt(h), and likewise
+// along t.
+void add_block(const IrradianceBlock& block, const float (&normal)[3], double (&rgb)[3]) {
     const D d;
-    const V n[3] = {set(normal[0]), set(normal[1]), set(normal[2])};
+    const V ns = set(normal[0]);
+    const V nt = set(normal[1]);
+    const V na = set(normal[2]);
+    const V half = set(block.side / 2);
+    const V area = set(block.side * block.side);
+    const V bend = hn::Mul(area, set(1.0F / 24));
+    alignas(64) float s_lanes[kTileTexels];
+    alignas(64) float t_lanes[kTileTexels];
+    for (int i = 0; i < kTileTexels; ++i) {
+        s_lanes[i] = block.s + block.side * static_cast<float>(i % kTileSide);
+        t_lanes[i] = block.t + block.side * static_cast<float>(i / kTileSide);
+    }
     V sum[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     for (int first = 0; first < kTileTexels; first += kLanes) {
-        const auto along_normal = [&](const float(&vectors)[3][kTileTexels]) {
-            return hn::MulAdd(n[0], hn::Load(d, vectors[0] + first),
-                              hn::MulAdd(n[1], hn::Load(d, vectors[1] + first),
-                                         hn::Mul(n[2], hn::Load(d, vectors[2] + first))));
+        const V s = hn::Load(d, s_lanes + first);
+        const V t = hn::Load(d, t_lanes + first);
+        const V r = hn::Div(set(1), hn::MulAdd(s, s, hn::MulAdd(t, t, set(1))));  // 1 / h
+        const V length = hn::Sqrt(r);
+        const auto bent = [&](float linear, float quadratic) {
+            const V laplacian = hn::Mul(r, hn::MulAdd(set(quadratic), r, set(linear)));
+            return hn::MulAdd(bend, laplacian, set(1));
         };
-        const V mu = along_normal(block.mean);
-        const V s = hn::Abs(along_normal(block.along_s));
-        const V t = hn::Abs(along_normal(block.along_t));
-        const V is_cut_below = hn::Add(s, t);
-        const V cut = mean_above_zero(mu, hn::Max(s, t), hn::Min(s, t));
-        const V whole = hn::Max(mu, hn::Zero(d));
-        const V mean = hn::IfThenElse(hn::Lt(hn::Abs(mu), is_cut_below), cut, whole);
-        const V weight = hn::Mul(mean, hn::Load(d, block.solid_angle_sr + first));
+        const V across = hn::MulAdd(ns, s, hn::Mul(nt, t));
+        const V solid_angle = hn::Mul(hn::Mul(area, hn::Mul(r, length)), bent(9, -15));
+        const V whole = hn::Mul(hn::Mul(area, hn::Mul(r, r)),
+                                hn::MulAdd(across, bent(8, -24), hn::Mul(na, bent(16, -24))));
+        const V mu = hn::Div(whole, solid_angle);
+        const V step = hn::Mul(half, length);
+        const V turn = hn::Mul(mu, length);
+        const V along_s = hn::Abs(hn::Mul(step, hn::NegMulAdd(turn, s, ns)));
+        const V along_t = hn::Abs(hn::Mul(step, hn::NegMulAdd(turn, t, nt)));
+        const V cut = hn::Mul(
+            solid_angle, mean_above_zero(mu, hn::Max(along_s, along_t), hn::Min(along_s, along_t)));
+        const V weight = hn::IfThenElse(hn::Lt(hn::Abs(mu), hn::Add(along_s, along_t)), cut,
+                                        hn::Max(whole, hn::Zero(d)));
         for (int c = 0; c < 3; ++c) {
-            sum[c] = hn::MulAdd(weight, hn::Load(d, radiance[c] + first), sum[c]);
+            sum[c] = hn::MulAdd(weight, hn::Load(d, block.radiance[c] + first), sum[c]);
         }
     }
     for (int c = 0; c < 3; ++c) rgb[c] += hn::GetLane(hn::SumOfLanes(d, sum[c]));

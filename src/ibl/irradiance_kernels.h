@@ -5,19 +5,19 @@
 
 namespace aureole::ibl {
 
-// 8 x 8 texels in the frame of their face; see TexelMoments and TexelSpread. Texels that are not
-// there have a solid angle of 0.
+// 8 x 8 texels of a face.
 struct IrradianceBlock {
-    alignas(64) float mean[3][kTileTexels];
-    alignas(64) float along_s[3][kTileTexels];
-    alignas(64) float along_t[3][kTileTexels];
-    alignas(64) float solid_angle_sr[kTileTexels];
+    float s = 0;  // middle of the first texel
+    float t = 0;
+    float side = 0;  // of a texel, in s and t
+    // R, G, B, row by row; 0 where there is no texel.
+    alignas(64) float radiance[3][kTileTexels];
 };
 
-// Adds the integral of radiance times max(0, N.L) over a block to rgb.
-using AddIrradianceOfBlock = void (*)(const IrradianceBlock& block,
-                                      const float (&radiance)[3][kTileTexels],
-                                      const float (&normal)[3], double (&rgb)[3]);
+// Adds the integral of radiance times max(0, N.L) over a block to rgb, with N in the frame of the
+// face.
+using AddIrradianceOfBlock = void (*)(const IrradianceBlock& block, const float (&normal)[3],
+                                      double (&rgb)[3]);
 
 AddIrradianceOfBlock add_irradiance_of_block();
 

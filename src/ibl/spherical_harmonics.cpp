@@ -61,10 +61,34 @@ struct Recurrence {
     }
 };
 
+// The first `bands` bands; the rest of `basis` is left as it is.
+void set_basis(const Direction& unit, int bands, Basis& basis) {
+    static const Recurrence recurrence;
+    double real = 1;  // of (x + i y)^m
+    double imaginary = 0;
+    for (int m = 0; m < bands; ++m) {
+        double before = 0;
+        double legendre = recurrence.diagonal[m];
+        for (int l = m; l < bands; ++l) {
+            const auto middle = static_cast<std::size_t>(l * l + l);
+            basis[middle - static_cast<std::size_t>(m)] = legendre * imaginary;
+            basis[middle + static_cast<std::size_t>(m)] = legendre * real;
+            const double next =
+                recurrence.grow[m][l] * unit.z * legendre - recurrence.shrink[m][l] * before;
+            before = legendre;
+            legendre = next;
+        }
+        const double turned = real * unit.x - imaginary * unit.y;
+        imaginary = real * unit.y + imaginary * unit.x;
+        real = turned;
+    }
+}
+
 // Integral of Y over texel (x, y) of a face.
 Basis integral_over(int face, int x, int y, int size, int bands) {
     const GaussRule& rule = rule_for(size);
     const double half = 1.0 / size;
+    Basis basis;
     Basis sum = {};
     double total = 0;
     for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
@@ -73,7 +97,7 @@ Basis integral_over(int face, int x, int y, int size, int bands) {
             const double t = (2 * y + 1 + rule.nodes[j]) * half - 1;
             const double h = 1 + s * s + t * t;
             const double weight = rule.weights[i] * rule.weights[j] / (h * std::sqrt(h));
-            const Basis basis = sh_basis(direction_of({face, s, t}));
+            set_basis(direction_of({face, s, t}), bands, basis);
             total += weight;
             for (int k = 0; k < bands * bands; ++k) {
                 sum[static_cast<std::size_t>(k)] += weight * basis[static_cast<std::size_t>(k)];
@@ -112,26 +136,8 @@ bool is_negative_somewhere(const SphericalHarmonics& sh) {
 }  // namespace
 
 std::array<double, kMostShCoefficients> sh_basis(const Direction& unit) {
-    static const Recurrence recurrence;
     Basis basis;
-    double real = 1;  // of (x + i y)^m
-    double imaginary = 0;
-    for (int m = 0; m < kMostShBands; ++m) {
-        double before = 0;
-        double legendre = recurrence.diagonal[m];
-        for (int l = m; l < kMostShBands; ++l) {
-            const auto middle = static_cast<std::size_t>(l * l + l);
-            basis[middle - static_cast<std::size_t>(m)] = legendre * imaginary;
-            basis[middle + static_cast<std::size_t>(m)] = legendre * real;
-            const double next =
-                recurrence.grow[m][l] * unit.z * legendre - recurrence.shrink[m][l] * before;
-            before = legendre;
-            legendre = next;
-        }
-        const double turned = real * unit.x - imaginary * unit.y;
-        imaginary = real * unit.y + imaginary * unit.x;
-        real = turned;
-    }
+    set_basis(unit, kMostShBands, basis);
     return basis;
 }
 

@@ -43,7 +43,7 @@ inline constexpr int kBrdfTableSize = 128;
 
 class BrdfTable {
   public:
-    // Computes the table: within 2e-5 of the integrals (of cloth relative to 1 + the value).
+    // Computes the table: each value is within 2e-5 of its integral (kCloth: of 1 + it).
     // Throws InvalidArgument unless size is in [1, 1024].
     explicit BrdfTable(BrdfTableKind kind, int size = kBrdfTableSize);
 
@@ -51,7 +51,9 @@ class BrdfTable {
     int size() const noexcept { return image_.width(); }
     // size x size pixels; 2 channels, 1 of kCloth. Pixel (i, k) is for N.v = (i + .5) / size and
     // perceptual roughness (k + .5) / size, so that a texture with linear filtering takes (N.v,
-    // roughness) as coordinates. Row 0, the first in memory, is the smoothest.
+    // roughness) as coordinates. Row 0, the first in memory, is the smoothest. Between pixels
+    // linear filtering of 128 pixels is within 5e-4 where N.v > .05; beyond the last one (roughness
+    // 1) it is clamped, which makes a compensated white surface 1.2 % too dark.
     const Image& image() const noexcept { return image_; }
 
     // As a texture with linear filtering and clamped coordinates. The second value of kCloth is 0.

@@ -3,7 +3,7 @@
 // The environment is taken as constant over each texel. P(N, a) is then the sum over all texels of
 // their radiance times the integral of w(L) over them, divided by the integral of w over the
 // hemisphere, which is known in closed form. The integrals over texels are good to about 1e-6 of
-// the texel's own: docs/environment_filtering.md.
+// their own.
 //
 // FilterMethod::kExact fills whole levels this way, 64 neighbours at a time, which is some seven
 // times faster per texel; this class is for single directions, to measure errors on a sample.

@@ -25,15 +25,14 @@ inline constexpr int kIrradianceSize = 32;
 
 class Irradiance {
   public:
-    // For environments of `size` texels per side. Throws InvalidArgument unless size is in
-    // [1, 16384].
+    // For environments of `size` texels per side; takes 14 bytes per texel. Throws InvalidArgument
+    // unless size is in [1, 16384].
     explicit Irradiance(int size);
     ~Irradiance();
     Irradiance(Irradiance&&) noexcept;
     Irradiance& operator=(Irradiance&&) noexcept;
 
-    // `environment`, finite and of that size, is read until the last call of at() and fill(): it
-    // has to stay alive and unchanged. Allocates nothing.
+    // `environment` is finite and of that size; it is copied. Allocates nothing.
     void prepare(const CubeMap& environment) noexcept;
 
     // E(normal), R, G, B; any length but 0. After prepare(), from any number of threads.
