@@ -57,4 +57,17 @@ std::vector<double> level_roughness(RoughnessMapping mapping, int levels, int si
     return roughness;
 }
 
+double level_of_roughness(const std::vector<double>& level_roughness, double roughness) {
+    const auto above = std::lower_bound(level_roughness.begin(), level_roughness.end(), roughness);
+    if (above == level_roughness.begin()) return 0;
+    const auto below = above - 1;
+    const auto level = static_cast<double>(below - level_roughness.begin());
+    if (above == level_roughness.end()) {
+        // The first of those that are equal to the last.
+        return static_cast<double>(std::lower_bound(level_roughness.begin(), below, *below) -
+                                   level_roughness.begin());
+    }
+    return level + (roughness - *below) / (*above - *below);
+}
+
 }  // namespace aureole::ibl

@@ -75,5 +75,23 @@ TEST(Roughness, RefusesChainsThatCannotBe) {
     EXPECT_THROW(level_roughness(RoughnessMapping::kGltf, 1, 20000), InvalidArgument);
 }
 
+TEST(Roughness, LevelsAreFoundAgain) {
+    for (const RoughnessMapping mapping : kAll) {
+        const auto roughness = level_roughness(mapping, 7, 256);
+        for (std::size_t i = 0; i + 1 < roughness.size(); ++i) {
+            if (i > 0 && roughness[i] == roughness[i - 1]) continue;
+            EXPECT_EQ(level_of_roughness(roughness, roughness[i]), static_cast<double>(i));
+            if (roughness[i] == roughness[i + 1]) continue;
+            const double between = 0.75 * roughness[i] + 0.25 * roughness[i + 1];
+            EXPECT_NEAR(level_of_roughness(roughness, between), static_cast<double>(i) + 0.25,
+                        1e-12);
+        }
+    }
+    EXPECT_EQ(level_of_roughness({0, 0.5, 1, 1, 1}, 1), 2);
+    EXPECT_EQ(level_of_roughness({0, 0.5, 0.8, 0.8}, 1), 2);
+    EXPECT_EQ(level_of_roughness({0.2, 0.5}, 0.1), 0);
+    EXPECT_EQ(level_of_roughness({0}, 0.5), 0);
+}
+
 }  // namespace
 }  // namespace aureole::ibl

@@ -36,6 +36,11 @@ inline constexpr std::array<std::string_view, 5> kRoughnessMappingNames = {
 // unless size is in [1, 16384] and levels in [1, most_levels(size)].
 std::vector<double> level_roughness(RoughnessMapping mapping, int levels, int size);
 
+// Where a surface of `roughness` looks up a chain whose levels are for `level_roughness`, as a
+// fraction of levels: linear between the two levels around it, the first or the last level beyond
+// them. level_roughness never falls and is not empty; of equal levels the first counts.
+double level_of_roughness(const std::vector<double>& level_roughness, double roughness);
+
 // GGX alpha of a perceptual roughness in [0, 1].
 constexpr double alpha_from_roughness(double perceptual_roughness) {
     return perceptual_roughness * perceptual_roughness;
