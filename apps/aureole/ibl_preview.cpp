@@ -34,7 +34,7 @@ void write_previews(const std::string& file, const ibl::PreviewChain& exact,
         write_sheet(file, ibl::filter_preview(exact, chain, table, irradiance));
         session.check_interrupt();
         write_sheet(dominant_direction_file(file),
-                    ibl::dominant_direction_preview(chain, table, irradiance));
+                    ibl::dominant_direction_preview(chain, table, irradiance, {}, &session));
     });
 }
 
