@@ -120,23 +120,6 @@ class TexelWriter {
 
 }  // namespace
 
-std::uint32_t StoredTexture::level_width(std::uint32_t level) const {
-    return std::max(1U, width >> level);
-}
-
-std::uint32_t StoredTexture::level_height(std::uint32_t level) const {
-    return std::max(1U, height >> level);
-}
-
-std::uint64_t StoredTexture::row_bytes(std::uint32_t level) const {
-    const std::uint64_t bytes = std::uint64_t{level_width(level)} * texel_bytes(texel);
-    return (bytes + row_alignment - 1) / row_alignment * row_alignment;
-}
-
-std::uint64_t StoredTexture::face_bytes(std::uint32_t level) const {
-    return row_bytes(level) * level_height(level);
-}
-
 void check_texture_extension(const std::string& path) { container_of(path); }
 
 TextureReport write_texture(const std::string& path, const Texture& texture,
