@@ -78,45 +78,65 @@ inline std::vector<Output> random_outputs(int size, int count) {
     return outputs;
 }
 
-// Root mean square error of luminance over some outputs, in means of the whole level. All outputs
-// around the lightest texel of the environment count, and the others by a random sample of them: a
-// lobe around a sun covers too few outputs for a sample.
-inline double relative_rms_error(const CubeMap& environment, const FilterOracle& oracle,
-                                 const CubeMap& level, double alpha, int count) {
-    constexpr int kAround = 6;
-    const int size = level.size();
-    Output lightest;
-    for (const Output& at : all_outputs(environment.size())) {
-        if (luminance_at(environment, at) > luminance_at(environment, lightest)) lightest = at;
-    }
-    lightest.x = lightest.x * size / environment.size();
-    lightest.y = lightest.y * size / environment.size();
-    const auto is_around = [&](const Output& at) {
-        return at.face == lightest.face && std::abs(at.x - lightest.x) <= kAround &&
-               std::abs(at.y - lightest.y) <= kAround;
-    };
-    std::vector<Output> around;
-    std::vector<Output> others;
-    double mean = 0;
-    const auto everything = all_outputs(size);
-    for (const Output& at : everything) {
-        mean += luminance_at(level, at) / static_cast<double>(everything.size());
-        if (is_around(at)) around.push_back(at);
-    }
-    for (const Output& at : random_outputs(size, count)) {
-        if (!is_around(at)) others.push_back(at);
-    }
-    const auto mean_square = [&](const std::vector<Output>& outputs) {
-        const auto truth = true_luminances(oracle, alpha, size, outputs);
-        double sum = 0;
-        for (std::size_t i = 0; i < outputs.size(); ++i) {
-            sum += std::pow(luminance_at(level, outputs[i]) - truth[i], 2);
+// The truth of one level at some outputs: at all of them around the lightest texel of the
+// environment, and at a random sample of the others. (A lobe around a sun covers too few outputs
+// for a sample.)
+class LevelTruth {
+  public:
+    LevelTruth(const CubeMap& environment, const FilterOracle& oracle, double alpha, int size,
+               int count)
+        : outputs_(all_outputs(size).size()) {
+        const int reach = 2 + size / 32;
+        Output lightest;
+        for (const Output& at : all_outputs(environment.size())) {
+            if (luminance_at(environment, at) > luminance_at(environment, lightest)) lightest = at;
         }
-        return outputs.empty() ? 0 : sum / static_cast<double>(outputs.size());
+        lightest.x = lightest.x * size / environment.size();
+        lightest.y = lightest.y * size / environment.size();
+        const auto is_around = [&](const Output& at) {
+            return at.face == lightest.face && std::abs(at.x - lightest.x) <= reach &&
+                   std::abs(at.y - lightest.y) <= reach;
+        };
+        for (const Output& at : all_outputs(size)) {
+            if (is_around(at)) around_.outputs.push_back(at);
+        }
+        for (const Output& at : random_outputs(size, count)) {
+            if (!is_around(at)) others_.outputs.push_back(at);
+        }
+        for (Sample* sample : {&around_, &others_}) {
+            sample->truth = true_luminances(oracle, alpha, size, sample->outputs);
+        }
+    }
+
+    // Root mean square error of luminance over the whole level, in means of the level.
+    double rms_error(const CubeMap& level) const {
+        double mean = 0;
+        for (const Output& at : all_outputs(level.size())) {
+            mean += luminance_at(level, at) / static_cast<double>(outputs_);
+        }
+        const double share =
+            static_cast<double>(around_.outputs.size()) / static_cast<double>(outputs_);
+        return std::sqrt(share * around_.mean_square(level) +
+                         (1 - share) * others_.mean_square(level)) /
+               mean;
+    }
+
+  private:
+    struct Sample {
+        std::vector<Output> outputs;
+        std::vector<double> truth;
+        double mean_square(const CubeMap& level) const {
+            double sum = 0;
+            for (std::size_t i = 0; i < outputs.size(); ++i) {
+                sum += std::pow(luminance_at(level, outputs[i]) - truth[i], 2);
+            }
+            return outputs.empty() ? 0 : sum / static_cast<double>(outputs.size());
+        }
     };
-    const double share =
-        static_cast<double>(around.size()) / static_cast<double>(everything.size());
-    return std::sqrt(share * mean_square(around) + (1 - share) * mean_square(others)) / mean;
-}
+
+    std::size_t outputs_;
+    Sample around_;
+    Sample others_;
+};
 
 }  // namespace aureole::ibl

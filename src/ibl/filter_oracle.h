@@ -1,6 +1,6 @@
 // The truth that filters are tested against: the weight of prefilter.h summed over every texel of
 // an environment in double precision, each texel being a square of constant radiance. Far from the
-// lobe a texel counts with its middle, near it with Gauss points in up to 16 x 16 parts.
+// lobe a texel counts with its middle, near it with Gauss points in up to 32 x 32 parts.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "aureole/base/units.h"
 #include "aureole/ibl/cube_map.h"
 
 namespace aureole::ibl {
@@ -31,7 +32,7 @@ class FilterOracle {
             const double q = 1 - (1 - a2) * (1 + cosine) / 2;
             return std::max(cosine, 0.0) / (q * q);
         };
-        std::array<double, 4> sum = {};
+        std::array<double, 3> sum = {};
         for (const Patch& patch : patches_) {
             const double texel = 4.0 / (size_ * static_cast<double>(size_)) / 6;  // its spread
             const double gap =
@@ -41,11 +42,11 @@ class FilterOracle {
                     const double w =
                         solid_angle_[i] * weight(n.x * x_[i] + n.y * y_[i] + n.z * z_[i]);
                     for (std::size_t c = 0; c < 3; ++c) sum[c] += w * radiance_[c][i];
-                    sum[3] += w;
                 }
                 continue;
             }
             for (std::size_t i = patch.first; i < patch.end; ++i) {
+                if (radiance_[0][i] == 0 && radiance_[1][i] == 0 && radiance_[2][i] == 0) continue;
                 const double cosine = n.x * x_[i] + n.y * y_[i] + n.z * z_[i];
                 const double relative = texel / (1 - (1 - a2) * (1 + cosine) / 2);
                 const int parts = relative < 2e-3   ? 1
@@ -55,10 +56,10 @@ class FilterOracle {
                 const double w =
                     near_weight(patch, static_cast<int>(i - patch.first), parts, n, weight);
                 for (std::size_t c = 0; c < 3; ++c) sum[c] += w * radiance_[c][i];
-                sum[3] += w;
             }
         }
-        return {sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]};
+        const double total = total_weight(weight);
+        return {sum[0] / total, sum[1] / total, sum[2] / total};
     }
 
   private:
@@ -73,6 +74,18 @@ class FilterOracle {
         Direction middle;
         double radius;
     };
+
+    // Over the hemisphere, in x with 1 - N.L = x^4, dense where the lobe is.
+    template <class Weight>
+    static double total_weight(const Weight& weight) {
+        constexpr int kSteps = 4000;
+        double sum = 0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double x = (i + 0.5) / kSteps;
+            sum += 4 * x * x * x * weight(1 - x * x * x * x);
+        }
+        return 2 * kPi * sum / kSteps;
+    }
 
     void add_patch(int face, int x0, int y0) {
         Patch patch{face, x0, y0, std::min(kPatchSide, size_ - x0), x_.size(), 0, {}, 0};
@@ -104,18 +117,22 @@ class FilterOracle {
         const int x = patch.x + index % patch.width;
         const int y = patch.y + index / patch.width;
         const double step = 2.0 / (size_ * parts);
+        // n in the axes of the face.
+        const double along = dot(n, direction_of({patch.face, 0, 0}));
+        const double right = std::sqrt(2.0) * dot(n, direction_of({patch.face, 1, 0})) - along;
+        const double down = std::sqrt(2.0) * dot(n, direction_of({patch.face, 0, 1})) - along;
+        const auto gauss = [&](int texel, int k) {  // two points per part
+            return 2.0 * texel / size_ - 1 +
+                   step * (k / 2 + 0.5 + (k % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.0));
+        };
         double sum = 0;
         for (int v = 0; v < 2 * parts; ++v) {
+            const double t = gauss(y, v);
             for (int u = 0; u < 2 * parts; ++u) {
-                const auto gauss = [&](int texel, int k) {  // two points per part
-                    return 2.0 * texel / size_ - 1 +
-                           step * (k / 2 + 0.5 + (k % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.0));
-                };
                 const double s = gauss(x, u);
-                const double t = gauss(y, v);
                 const double h = 1 + s * s + t * t;
-                sum += step * step / 4 / (h * std::sqrt(h)) *
-                       weight(dot(n, direction_of({patch.face, s, t})));
+                const double root = std::sqrt(h);
+                sum += step * step / 4 / (h * root) * weight((along + s * right + t * down) / root);
             }
         }
         return sum;

@@ -26,7 +26,7 @@ float sum4(const float (&v)[4], const float (&weights)[4]) {
 // Node `node` of `parent` from its four children.
 void join(const RadianceBlock& children, RadianceBlock& parent, int node) {
     // Black nodes need a mean direction, too.
-    constexpr float kBlack = 1e-12F;
+    constexpr float kBlack = 1e-24F;
     float weight[4];
     for (int i = 0; i < 4; ++i) {
         weight[i] = luminance(children, i) + kBlack * children.solid_angle_sr[i];
