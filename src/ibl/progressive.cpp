@@ -114,7 +114,7 @@ void move_means(const TileColors& colors, float share, Work& work, CubeMap& out)
             for (int x = 0; x < tile.width; ++x) {
                 const float color = colors.rgb[y * tile.width + x][c];
                 const float step = share * (color - row[x]);
-                // Nothing of what was there may be left by rounding when share is 1.
+                // The first samples replace what was there, of which rounding would leave a trace.
                 row[x] = share == 1 ? color : row[x] + step;
                 change2 += static_cast<double>(step) * static_cast<double>(step);
                 sum += static_cast<double>(row[x]);

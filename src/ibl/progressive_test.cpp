@@ -191,6 +191,18 @@ TEST(Progressive, ANewEnvironmentLeavesNoTraceOfTheOldOne) {
     }
 }
 
+// To the bit, next to a texel so bright that rounding would show.
+TEST(Progressive, OnePassIsTheFilterOfAsManySamples) {
+    const CubeMap environment = corner_texel_environment(16);
+    ProgressiveOptions options = options_for(16, 2, 64);
+    options.sequence = SampleSequence::kRotated;
+    options.samples_per_pass = 64;
+    ProgressiveFilter filter(16, options);
+    filter.set_environment(environment);
+    filter.advance(64);
+    expect_same_bits({filter.result()[1]}, {one_shot(environment, 1, 8, 64)});
+}
+
 // However it is cut in time, and with any number of threads.
 TEST(Progressive, TheResultDependsOnSamplesOnly) {
     const CubeMap environment = interior_environment(64);
