@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, 16>;
 using V = hn::Vec<D>;
 
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
+inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 
 HWY_INLINE V set(float value) { return hn::Set(D(), value); }
 

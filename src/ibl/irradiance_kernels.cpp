@@ -12,10 +12,11 @@ HWY_BEFORE_NAMESPACE();
 namespace aureole::ibl::HWY_NAMESPACE {
 namespace {
 
-// Integrals over a texel of side k about (s, t), with h = 1 + s^2 + t^2: of dw, k^2 h^(-3/2); of L
-// dw, (s, t, 1) k^2 h^-2; each with the second-order term of the midpoint rule, k^2 / 24 times the
-// Laplacian. Across the texel N.L changes by +-(N - (N.L) L) (k / 2, 0, 0) / sqrt(h), and likewise
-// along t.
+// Over a texel of side k about (s, t), with h = 1 + s^2 + t^2, the integral of L dw is (s, t, 1)
+// k^2 h^-2, times what the second-order term of the midpoint rule adds, k^2 / 24 times the
+// Laplacian. Its solid angle is k^2 h^(-3/2), which need not be better than that: it only scales
+// how wide a cut is. Across the texel N.L changes by +-(N - (N.L) L) (k / 2, 0, 0) / sqrt(h), and
+// likewise along t.
 void add_block(const IrradianceBlock& block, const float (&normal)[3], double (&rgb)[3]) {
     const D d;
     const V ns = set(normal[0]);
@@ -41,7 +42,7 @@ void add_block(const IrradianceBlock& block, const float (&normal)[3], double (&
             return hn::MulAdd(bend, laplacian, set(1));
         };
         const V across = hn::MulAdd(ns, s, hn::Mul(nt, t));
-        const V solid_angle = hn::Mul(hn::Mul(area, hn::Mul(r, length)), bent(9, -15));
+        const V solid_angle = hn::Mul(area, hn::Mul(r, length));
         const V whole = hn::Mul(hn::Mul(area, hn::Mul(r, r)),
                                 hn::MulAdd(across, bent(8, -24), hn::Mul(na, bent(16, -24))));
         const V mu = hn::Div(whole, solid_angle);
