@@ -89,7 +89,7 @@ TEST(Environments, DoNotDependOnThreadsButOnSeeds) {
 TEST(Environments, AreTheSameWorldAtEverySize) {
     for (const EnvironmentInfo& info : list_environments()) {
         const double small = mean_of(make_environment(info.name, sized(128)).rgb, 5e4);
-        const double large = mean_of(make_environment(info.name, sized(512)).rgb, 5e4);
+        const double large = mean_of(make_environment(info.name, sized(384)).rgb, 5e4);
         EXPECT_NEAR(small / large, 1, 0.04) << info.name;
     }
 }
@@ -120,7 +120,7 @@ TEST(Environments, RefuseWhatTheyCannotDo) {
 
 TEST(Sunny, HasTheRealSunsEnergyAtEverySize) {
     const double exact = 1.6e9 * 2 * kPi * (1 - std::cos(rad_from_deg(0.265)));
-    for (const int width : {32, 256, 1024}) {
+    for (const int width : {32, 256}) {
         const Image rgb = make_environment("sunny", sized(width)).rgb;
         double sum = 0;
         for (int y = 0; y < rgb.height(); ++y) {
