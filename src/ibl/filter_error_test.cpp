@@ -27,7 +27,7 @@ void scale(CubeMap& map, float factor) {
 }
 
 TEST(FilterError, OfTheExactLevelIsNone) {
-    const CubeMap environment = test_environments::sun(32);
+    const CubeMap environment = sun_environment(32);
     const ExactFilter exact(environment);
     for (const double roughness : {0.2, 0.6}) {
         const auto error = measure_filter_error(exact, filtered(environment, roughness),
@@ -39,7 +39,7 @@ TEST(FilterError, OfTheExactLevelIsNone) {
 
 // Everything 1 % too bright is a bias of 1 % of the mean.
 TEST(FilterError, SeesABias) {
-    const CubeMap environment = test_environments::overcast(16);
+    const CubeMap environment = overcast_environment(16);
     CubeMap level = filtered(environment, 0.7);
     scale(level, 1.01F);
     const auto error =
@@ -52,7 +52,7 @@ TEST(FilterError, SeesABias) {
 
 // The sample against all texels: one texel of a sun's lobe is wrong, where few even draws fall.
 TEST(FilterError, SampleAgreesWithAllTexels) {
-    const CubeMap environment = test_environments::sun(64);
+    const CubeMap environment = sun_environment(64);
     const ExactFilter exact(environment);
     CubeMap level = filtered(environment, 0.25);
     for (std::size_t i = 0; i < 3 * level.stacked().pixels(); ++i) {

@@ -153,7 +153,7 @@ TEST(LatLongToCube, FindsAFunctionOfTheDirection) {
 TEST(LatLongToCube, EnlargingIsSmoothAtPolesAndSeam) {
     const CubeMap map = cube_from_lat_long(picture_of(128, smooth), 256);
     EXPECT_LT(error_of(map, smooth), 0.012) << "linear in mu, by a pole: half a pixel";
-    EXPECT_LT(error_of(map, smooth, 0.1), 1.5e-3);
+    EXPECT_LT(error_of(map, smooth, 0.1), 2e-3);
     // A step across the seam would show there.
     for (int y = 0; y < 256; ++y) {
         EXPECT_NEAR(map.at(5, 127, y, 0), map.at(5, 128, y, 0), 0.012);

@@ -119,7 +119,7 @@ Studio build_studio(const EnvironmentOptions& options) {
              facing_eye({2.9F, 0.5F, 1.3F}, 0.45F, 1.3F, daylight * 2500),     // fill
              facing_eye({1.7F, 1.1F, -2.5F}, 0.2F, 1.1F, cool * 14000),        // rim
              facing_eye({-2.4F, 0.8F, -2.2F}, 0.2F, 1.0F, warm * 9000),        // rim
-             facing_eye({0.1F, 2.7F, 0.2F}, 0.9F, 0.9F, daylight * 3500),      // above
+             facing_eye({0.3F, 2.7F, -0.5F}, 0.7F, 0.5F, daylight * 3500),     // above
              facing_eye({0.4F, -0.75F, 3.6F}, 0.8F, 0.12F, daylight * 3000)},  // low strip
             {{-5, -1.35F, -5}, {5, 3.4F, 5}},
             texture_seed(options),
@@ -152,11 +152,11 @@ Vec3 look_at_walls(const Studio& studio, Vec3 origin, Vec3 direction) {
     const float stains =
         floor ? fractal_noise(wall.point.x, wall.point.z, 1.3F, 6, footprint, studio.seed) : 0;
     Vec3 albedo =
-        floor ? Vec3{0.20F, 0.195F, 0.19F} * (1 + 0.35F * stains) : Vec3{0.085F, 0.088F, 0.095F};
+        floor ? Vec3{0.20F, 0.195F, 0.19F} * (1 + 0.35F * stains) : Vec3{0.15F, 0.155F, 0.17F};
     if (wall.axis == 2 && wall.normal.z < 0 && std::abs(wall.point.x) < 3) {
-        albedo = {0.30F, 0.30F, 0.31F};  // the backdrop, grey paper
+        albedo = {0.42F, 0.42F, 0.43F};  // the backdrop, grey paper
     }
-    const float ambient = 60 * (1 - 0.5F * std::exp(-wall.corner / 0.5F));
+    const float ambient = 420 * (1 - 0.5F * std::exp(-wall.corner / 0.5F));
     return albedo * (light + Vec3{1, 1, 1} * ambient) * (1 / kPiF);
 }
 
@@ -358,7 +358,7 @@ Environment make_studio(const EnvironmentOptions& options) {
     out.rgb = render_sphere(options, 1500,
                             [&](Vec3 direction) { return look_into_studio(studio, direction); });
     out.adaptation_cd_m2 = mean_luminance(out.rgb, 0.9);
-    out.display_white_cd_m2 = 1200;
+    out.display_white_cd_m2 = 1000;
     return out;
 }
 
@@ -369,7 +369,7 @@ Environment make_interior(const EnvironmentOptions& options) {
         return look_into_room(interior, {}, direction, true);
     });
     out.adaptation_cd_m2 = mean_luminance(out.rgb, 0.9);
-    out.display_white_cd_m2 = 700;
+    out.display_white_cd_m2 = 600;
     return out;
 }
 

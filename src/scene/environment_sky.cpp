@@ -18,13 +18,13 @@ Vec3 field_albedo(float x, float z, float footprint, int seed) {
     const Vec3 dry = {0.17F, 0.16F, 0.075F};
     const Vec3 sand = {0.34F, 0.29F, 0.22F};
     const float patches = fractal_noise(x, z, 9, 5, footprint, seed);
-    const float blades = fractal_noise(x, z, 0.35F, 4, footprint, seed + 40);
+    const float blades = fractal_noise(x, z, 0.3F, 6, footprint, seed + 40);
     Vec3 albedo = mix(grass, dry, smoothstep(-0.25F, 0.45F, patches + 0.25F * blades));
     albedo *= 1 + 0.7F * blades;
     const float bend = 1.4F * std::sin(0.11F * z) + 0.5F * fractal_noise(z, 3, 5, 2, 0, seed + 80);
     const float edge = std::abs(x - 1.2F - bend) + 0.25F * patches + 0.12F * blades;
     const float path = smoothstep(1.15F, 0.85F - footprint, edge);
-    const float pebbles = fractal_noise(x, z, 0.09F, 3, footprint, seed + 120);
+    const float pebbles = fractal_noise(x, z, 0.07F, 4, footprint, seed + 120);
     return mix(albedo, sand * (1 + 0.5F * pebbles), path);
 }
 
@@ -163,10 +163,10 @@ Environment make_overcast(const EnvironmentOptions& options) {
             fractal_noise(x + warp, z - warp, 1.7F, 6, pixel_rad / (up * up), seed + 3);
         const float seen = smoothstep(0, 0.25F, direction.y);
         const Vec3 shade = mix(white, unit_luminance({0.88F, 1.0F, 1.2F}), 0.5F - 0.5F * clouds);
-        return shade * (level * (1 + 0.30F * seen * clouds));
+        return shade * (level * (1 + 0.45F * seen * clouds));
     });
     out.adaptation_cd_m2 = 3000;
-    out.display_white_cd_m2 = 9000;
+    out.display_white_cd_m2 = 6500;
     return out;
 }
 
