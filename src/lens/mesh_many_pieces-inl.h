@@ -1,0 +1,295 @@
+// Cells of many pieces: a lane for each piece of a cell. Included once per instruction set.
+#if defined(AUREOLE_LENS_MESH_MANY_PIECES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef AUREOLE_LENS_MESH_MANY_PIECES_INL_H_
+#undef AUREOLE_LENS_MESH_MANY_PIECES_INL_H_
+#else
+#define AUREOLE_LENS_MESH_MANY_PIECES_INL_H_
+#endif
+
+#include "lens/mesh_mask-inl.h"
+#include "lens/mesh_scatter-inl.h"
+#include "lens/mesh_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace aureole::lens::HWY_NAMESPACE {
+namespace {
+
+// A coordinate over the cells of a group by powers of the place (i, j) in the cell, from the cubics
+// of Catmull and Rom in both directions.
+struct GroupCubics {
+    HWY_ALIGN float base[kGroup];
+    HWY_ALIGN float power[4][4][kGroup];  // of j, of i, by cell; without base
+    HWY_ALIGN float right[3][kGroup];     // derivative by j at i = 1, by powers of j
+
+    // `field` at the first vertex of the first cell.
+    GroupCubics(const float* field, std::ptrdiff_t stride) {
+        const D d;
+        for (int cell = 0; cell < kGroup; cell += kLanes) {
+            const float* at = field + cell;
+            const V origin = load(at);
+            hn::Store(origin, d, base + cell);
+            V columns[4][4];
+            for (int k = 0; k < 4; ++k) {
+                V values[4];
+                for (int m = 0; m < 4; ++m) {
+                    values[m] = hn::Sub(load(at + (m - 1) * stride + k - 1), origin);
+                }
+                powers_of(values, columns[k]);
+            }
+            for (int j = 0; j < 4; ++j) {
+                const V values[4] = {columns[0][j], columns[1][j], columns[2][j], columns[3][j]};
+                V powers[4];
+                powers_of(values, powers);
+                for (int i = 0; i < 4; ++i) hn::Store(powers[i], d, power[j][i] + cell);
+                if (j == 0) continue;
+                hn::Store(hn::Mul(set(static_cast<float>(j)), values[2]), d, right[j - 1] + cell);
+            }
+        }
+    }
+
+  private:
+    // Of the cubic between the middle two of four values.
+    static HWY_INLINE void powers_of(const V values[4], V powers[4]) {
+        const V half = set(0.5F);
+        const V rise = hn::Sub(values[2], values[1]);
+        powers[0] = values[1];
+        powers[1] = hn::Mul(half, hn::Sub(values[2], values[0]));
+        powers[3] = hn::NegMulAdd(set(1.5F), rise, hn::Mul(half, hn::Sub(values[3], values[0])));
+        powers[2] = hn::Sub(rise, hn::Add(powers[1], powers[3]));
+    }
+};
+
+// What a line of a cell at j is by powers of i.
+HWY_INLINE void line_at(const GroupCubics& cubics, int cell, V j, V of_i[4]) {
+    for (int i = 0; i < 4; ++i) {
+        V sum = set(cubics.power[3][i][cell]);
+        for (int k = 2; k >= 0; --k) sum = hn::MulAdd(sum, j, set(cubics.power[k][i][cell]));
+        of_i[i] = sum;
+    }
+    of_i[0] = hn::Add(of_i[0], set(cubics.base[cell]));
+}
+
+// A coordinate in the middles of pieces, and its changes over a piece.
+struct PiecePosition {
+    V value, along, across;
+    PiecePosition(const GroupCubics& cubics, int cell, V i, V j, V step_i, V step_j) {
+        V of_i[4];
+        line_at(cubics, cell, j, of_i);
+        // Horner's rule for a polynomial and its derivative.
+        V slope = of_i[3];
+        V sum = hn::MulAdd(of_i[3], i, of_i[2]);
+        slope = hn::MulAdd(slope, i, sum);
+        sum = hn::MulAdd(sum, i, of_i[1]);
+        slope = hn::MulAdd(slope, i, sum);
+        value = hn::MulAdd(sum, i, of_i[0]);
+        along = hn::Mul(step_i, slope);
+        // Linear between both sides, which is enough for the size of a piece.
+        const auto& p = cubics.power;
+        const V left = hn::MulAdd(
+            hn::MulAdd(set(3 * p[3][0][cell]), j, set(2 * p[2][0][cell])), j, set(p[1][0][cell]));
+        const auto& r = cubics.right;
+        const V right =
+            hn::MulAdd(hn::MulAdd(set(r[2][cell]), j, set(r[1][cell])), j, set(r[0][cell]));
+        across = hn::Mul(step_j, hn::MulAdd(i, hn::Sub(right, left), left));
+    }
+};
+
+// Bilinear over a cell, and its changes over a piece.
+HWY_INLINE MaskField bilinear(const float* field, std::ptrdiff_t stride, V i, V j, V step_i,
+                              V step_j) {
+    const V a = set(field[0]);
+    const V right = set(field[1] - field[0]);
+    const V down = set(field[stride] - field[0]);
+    const V both = set(field[stride + 1] - field[stride] - field[1] + field[0]);
+    const V along = hn::MulAdd(both, j, right);
+    return {hn::MulAdd(along, i, hn::MulAdd(down, j, a)), hn::Mul(step_i, along),
+            hn::Mul(step_j, hn::MulAdd(both, i, down))};
+}
+
+// The weight of the facets, linear over the two triangles of a cell.
+HWY_INLINE V facet_weight(const float* smooth, std::ptrdiff_t stride, V i, V j) {
+    const float ends = smooth[stride + 1] - smooth[0];
+    const V low = hn::Min(i, j);
+    const V beside = hn::IfThenElse(hn::Gt(i, j), set(smooth[1]), set(smooth[stride]));
+    // Along the diagonal by the smaller of the two, then towards the third corner.
+    const V on_diagonal = hn::MulAdd(low, set(ends), set(smooth[0]));
+    const V apart = hn::Abs(hn::Sub(i, j));
+    return hn::MulAdd(apart, hn::Sub(beside, set(smooth[0])), on_diagonal);
+}
+
+// Do places within these bounds, which are those of corners, and what lies between and around them
+// miss [low, high)?
+HWY_INLINE M misses(V least, V most, int low, int high) {
+    const V more = hn::MulAdd(set(0.5F), hn::Sub(most, least), set(1.5F));
+    return hn::Or(hn::Lt(hn::Add(most, more), set(static_cast<float>(low))),
+                  hn::Gt(hn::Sub(least, more), set(static_cast<float>(high))));
+}
+
+// The cells of a group that are drawn by many pieces.
+class ManyPieces {
+  public:
+    ManyPieces(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask, const MeshTile& tile)
+        : mesh_(mesh),
+          mask_(mask),
+          tile_(tile),
+          row_(group.row),
+          column_(group.column),
+          first_(group.row * mesh.stride + group.column),
+          x_(mesh.x + first_, mesh.stride),
+          y_(mesh.y + first_, mesh.stride) {}
+
+    // One cell, divided as given; in parts, of which a large cell has most elsewhere.
+    void draw(int cell, int pieces_i, int pieces_j) const {
+        Part part{.cell = cell, .pieces_i = pieces_i, .pieces_j = pieces_j};
+        HWY_ALIGN float outside[kMostParts];
+        for (part.first_j = 0; part.first_j < pieces_j; part.first_j += kPart) {
+            part.count_j = std::min(kPart, pieces_j - part.first_j);
+            const bool several = pieces_i > kPart || pieces_j > kPart;
+            if (several) mark_outside(part, outside);
+            for (part.first_i = 0; part.first_i < pieces_i; part.first_i += kPart) {
+                part.count_i = std::min(kPart, pieces_i - part.first_i);
+                if (!several || outside[part.first_i / kPart] == 0) draw_part(part);
+            }
+        }
+    }
+
+  private:
+    static constexpr int kPart = 24;  // pieces
+    static constexpr int kMostParts = kGroup;
+
+    // Some of the pieces of a cell that is divided into so many.
+    struct Part {
+        int cell = 0;
+        int pieces_i = 1, pieces_j = 1;
+        int first_i = 0, first_j = 0, count_i = 0, count_j = 0;
+    };
+
+    // Of the parts side by side in the lines of `part`: 1 for those of which nothing falls into the
+    // tile.
+    void mark_outside(const Part& part, float* outside) const {
+        const D d;
+        const V upper = set(static_cast<float>(part.first_j) / static_cast<float>(part.pieces_j));
+        const V lower = set(static_cast<float>(part.first_j + part.count_j) /
+                            static_cast<float>(part.pieces_j));
+        const V width = set(static_cast<float>(kPart) / static_cast<float>(part.pieces_i));
+        for (int k = 0; k < kMostParts && k * kPart < part.pieces_i; k += kLanes) {
+            const V left = hn::Min(hn::Mul(hn::Iota(d, static_cast<float>(k)), width), set(1));
+            const V right = hn::Min(hn::Add(left, width), set(1));
+            const auto miss = [&](const GroupCubics& cubics, int low, int high) {
+                V least = set(1e9F);
+                V most = set(-1e9F);
+                for (const V j : {upper, lower}) {
+                    V of_i[4];
+                    line_at(cubics, part.cell, j, of_i);
+                    for (const V i : {left, right}) {
+                        const V value = hn::MulAdd(
+                            hn::MulAdd(hn::MulAdd(of_i[3], i, of_i[2]), i, of_i[1]), i, of_i[0]);
+                        least = hn::Min(least, value);
+                        most = hn::Max(most, value);
+                    }
+                }
+                return misses(least, most, low, high);
+            };
+            const M out = hn::Or(miss(y_, tile_.y0, tile_.y1), miss(x_, tile_.x0, tile_.x1));
+            hn::Store(hn::IfThenElseZero(out, set(1)), d, outside + k);
+        }
+    }
+
+    void draw_part(const Part& part) const {
+        const D d;
+        const std::ptrdiff_t s = mesh_.stride;
+        const std::ptrdiff_t at = first_ + part.cell;
+        const int column = column_ + part.cell;
+        const bool masked =
+            mesh_.state[static_cast<std::ptrdiff_t>(row_) * mesh_.columns + column] == kCellMasked;
+        const auto pieces = static_cast<float>(part.pieces_i * part.pieces_j);
+        const V step_i = set(1 / static_cast<float>(part.pieces_i));
+        const V step_j = set(1 / static_cast<float>(part.pieces_j));
+        const V per_line = set(1 / static_cast<float>(part.count_i));
+        const V per_piece = set(mesh_.share[at] / pieces);
+        const int count = part.count_i * part.count_j;
+        for (int first = 0; first < count; first += kLanes) {
+            const V index = hn::Iota(d, static_cast<float>(first) + 0.5F);
+            const V line = hn::Floor(hn::Mul(index, per_line));
+            const V in_line = hn::NegMulAdd(line, set(static_cast<float>(part.count_i)), index);
+            const V i = hn::Mul(hn::Add(in_line, set(static_cast<float>(part.first_i))), step_i);
+            const V j =
+                hn::Mul(hn::Add(line, set(static_cast<float>(part.first_j) + 0.5F)), step_j);
+            const PiecePosition y(y_, part.cell, i, j, step_i, step_j);
+            const PiecePosition x(x_, part.cell, i, j, step_i, step_j);
+            const M exist =
+                hn::FirstN(d, static_cast<std::size_t>(std::min(kLanes, count - first)));
+            const M seen = hn::And(exist, near(tile_, x.value, y.value));
+            if (hn::AllFalse(d, seen)) continue;
+            V energy =
+                hn::Mul(per_piece, bilinear(mesh_.power + at, s, i, j, step_i, step_j).value);
+            energy = hn::NegMulAdd(energy, facet_weight(mesh_.smooth + at, s, i, j), energy);
+            if (masked) {
+                MaskPlace place;
+                place.u = bilinear(mesh_.u + at, s, i, j, step_i, step_j);
+                place.v = bilinear(mesh_.v + at, s, i, j, step_i, step_j);
+                place.clip = bilinear(mesh_.clip + at, s, i, j, step_i, step_j);
+                place.entrance_x = hn::MulAdd(hn::Add(i, set(static_cast<float>(column))),
+                                              set(mesh_.entrance_step_x), set(mesh_.entrance_x));
+                place.entrance_y = hn::MulAdd(hn::Add(j, set(static_cast<float>(row_))),
+                                              set(mesh_.entrance_step_y), set(mesh_.entrance_y));
+                place.entrance_width =
+                    std::sqrt(mesh_.entrance_step_x * mesh_.entrance_step_y / pieces);
+                energy = hn::Mul(energy, light_at(mask_, place));
+            }
+            scatter(tile_, lay(x.value, x.along, x.across, 1), lay(y.value, y.along, y.across, 1),
+                    seen, energy);
+        }
+    }
+
+    const Mesh& mesh_;
+    const MeshMask& mask_;
+    const MeshTile& tile_;
+    int row_, column_;
+    std::ptrdiff_t first_;  // vertex
+    GroupCubics x_, y_;
+};
+
+// Draws each cell of a group, at most divided as the group is.
+void draw_many(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
+               const MeshTile& tile) {
+    const D d;
+    const std::ptrdiff_t s = mesh.stride;
+    const std::ptrdiff_t first = group.row * s + group.column;
+    // 0 for cells that are not drawn here.
+    HWY_ALIGN float along[kGroup];
+    HWY_ALIGN float across[kGroup];
+    bool some = false;
+    for (int cell = 0; cell < kGroup; cell += kLanes) {
+        const std::ptrdiff_t at = first + cell;
+        const CellBounds x(mesh.x + at, s);
+        const CellBounds y(mesh.y + at, s);
+        const M beside =
+            hn::Or(misses(x.low, x.high, tile.x0, tile.x1), misses(y.low, y.high, tile.y0, tile.y1));
+        const M drawn =
+            hn::AndNot(beside, hn::And(cells_from(mesh, group.column + cell),
+                                       hn::Ne(load(mesh.share + at), hn::Zero(d))));
+        some = some || !hn::AllFalse(d, drawn);
+        const auto pieces = [&](std::ptrdiff_t step, std::ptrdiff_t side, int most) {
+            const V cx = largest_changes(mesh.x + at, step, side);
+            const V cy = largest_changes(mesh.y + at, step, side);
+            const V length = hn::Sqrt(hn::MulAdd(cx, cx, hn::Mul(cy, cy)));
+            const V count = hn::Ceil(hn::Mul(set(kCoarsePiecesPerPx), length));
+            return hn::Min(hn::Max(count, set(1)), set(static_cast<float>(most)));
+        };
+        hn::Store(hn::IfThenElseZero(drawn, pieces(1, s, group.pieces_i)), d, along + cell);
+        hn::Store(pieces(s, 1, group.pieces_j), d, across + cell);
+    }
+    if (!some) return;
+    const ManyPieces pieces(mesh, group, mask, tile);
+    for (int cell = 0; cell < kGroup; ++cell) {
+        if (along[cell] == 0) continue;
+        pieces.draw(cell, static_cast<int>(along[cell]), static_cast<int>(across[cell]));
+    }
+}
+
+}  // namespace
+}  // namespace aureole::lens::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // toggle
