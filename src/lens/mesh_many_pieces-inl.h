@@ -19,7 +19,9 @@ namespace {
 struct GroupCubics {
     HWY_ALIGN float base[kGroup];
     HWY_ALIGN float power[4][4][kGroup];  // of j, of i, by cell; without base
-    HWY_ALIGN float right[3][kGroup];     // derivative by j at i = 1, by powers of j
+    // The derivative by j at i = 0 and i = 1, by powers of j.
+    HWY_ALIGN float left[3][kGroup];
+    HWY_ALIGN float right[3][kGroup];
 
     // `field` at the first vertex of the first cell.
     GroupCubics(const float* field, std::ptrdiff_t stride) {
@@ -42,7 +44,9 @@ struct GroupCubics {
                 powers_of(values, powers);
                 for (int i = 0; i < 4; ++i) hn::Store(powers[i], d, power[j][i] + cell);
                 if (j == 0) continue;
-                hn::Store(hn::Mul(set(static_cast<float>(j)), values[2]), d, right[j - 1] + cell);
+                const V times = set(static_cast<float>(j));
+                hn::Store(hn::Mul(times, values[1]), d, left[j - 1] + cell);
+                hn::Store(hn::Mul(times, values[2]), d, right[j - 1] + cell);
             }
         }
     }
@@ -84,38 +88,49 @@ struct PiecePosition {
         value = hn::MulAdd(sum, i, of_i[0]);
         along = hn::Mul(step_i, slope);
         // Linear between both sides, which is enough for the size of a piece.
-        const auto& p = cubics.power;
-        const V left = hn::MulAdd(
-            hn::MulAdd(set(3 * p[3][0][cell]), j, set(2 * p[2][0][cell])), j, set(p[1][0][cell]));
-        const auto& r = cubics.right;
-        const V right =
-            hn::MulAdd(hn::MulAdd(set(r[2][cell]), j, set(r[1][cell])), j, set(r[0][cell]));
-        across = hn::Mul(step_j, hn::MulAdd(i, hn::Sub(right, left), left));
+        const auto on_side = [&](const float(&powers)[3][kGroup]) {
+            return hn::MulAdd(hn::MulAdd(set(powers[2][cell]), j, set(powers[1][cell])), j,
+                              set(powers[0][cell]));
+        };
+        const V left = on_side(cubics.left);
+        across = hn::Mul(step_j, hn::MulAdd(i, hn::Sub(on_side(cubics.right), left), left));
     }
 };
 
-// Bilinear over a cell, and its changes over a piece.
-HWY_INLINE MaskField bilinear(const float* field, std::ptrdiff_t stride, V i, V j, V step_i,
-                              V step_j) {
-    const V a = set(field[0]);
-    const V right = set(field[1] - field[0]);
-    const V down = set(field[stride] - field[0]);
-    const V both = set(field[stride + 1] - field[stride] - field[1] + field[0]);
-    const V along = hn::MulAdd(both, j, right);
-    return {hn::MulAdd(along, i, hn::MulAdd(down, j, a)), hn::Mul(step_i, along),
-            hn::Mul(step_j, hn::MulAdd(both, i, down))};
-}
+// A field that is bilinear over a cell.
+struct Bilinear {
+    float first, right, down, both;
+    Bilinear(const float* field, std::ptrdiff_t stride)
+        : first(field[0]),
+          right(field[1] - field[0]),
+          down(field[stride] - field[0]),
+          both(field[stride + 1] - field[stride] - right) {}
+
+    HWY_INLINE V at(V i, V j) const {
+        const V along = hn::MulAdd(set(both), j, set(right));
+        return hn::MulAdd(along, i, hn::MulAdd(set(down), j, set(first)));
+    }
+    // With its changes over a piece.
+    HWY_INLINE MaskField over_piece(V i, V j, V step_i, V step_j) const {
+        return {at(i, j), hn::Mul(step_i, hn::MulAdd(set(both), j, set(right))),
+                hn::Mul(step_j, hn::MulAdd(set(both), i, set(down)))};
+    }
+};
 
 // The weight of the facets, linear over the two triangles of a cell.
-HWY_INLINE V facet_weight(const float* smooth, std::ptrdiff_t stride, V i, V j) {
-    const float ends = smooth[stride + 1] - smooth[0];
-    const V low = hn::Min(i, j);
-    const V beside = hn::IfThenElse(hn::Gt(i, j), set(smooth[1]), set(smooth[stride]));
-    // Along the diagonal by the smaller of the two, then towards the third corner.
-    const V on_diagonal = hn::MulAdd(low, set(ends), set(smooth[0]));
-    const V apart = hn::Abs(hn::Sub(i, j));
-    return hn::MulAdd(apart, hn::Sub(beside, set(smooth[0])), on_diagonal);
-}
+struct FacetWeight {
+    float first, last, right, down;  // at the vertices
+    FacetWeight(const float* smooth, std::ptrdiff_t stride)
+        : first(smooth[0]), last(smooth[stride + 1]), right(smooth[1]), down(smooth[stride]) {}
+
+    bool is_zero() const { return first == 0 && last == 0 && right == 0 && down == 0; }
+    HWY_INLINE V at(V i, V j) const {
+        // Along the diagonal by the smaller of the two, then towards the third corner.
+        const V on_diagonal = hn::MulAdd(hn::Min(i, j), set(last - first), set(first));
+        const V to = hn::IfThenElse(hn::Gt(i, j), set(right - first), set(down - first));
+        return hn::MulAdd(hn::Abs(hn::Sub(i, j)), to, on_diagonal);
+    }
+};
 
 // Do places within these bounds, which are those of corners, and what lies between and around them
 // miss [low, high)?
@@ -208,6 +223,12 @@ class ManyPieces {
         const V per_line = set(1 / static_cast<float>(part.count_i));
         const V per_piece = set(mesh_.share[at] / pieces);
         const int count = part.count_i * part.count_j;
+        const Bilinear power(mesh_.power + at, s);
+        const FacetWeight faceted(mesh_.smooth + at, s);
+        const bool some_faceted = !faceted.is_zero();
+        const Bilinear u(mesh_.u + at, s);
+        const Bilinear v(mesh_.v + at, s);
+        const Bilinear clip(mesh_.clip + at, s);
         for (int first = 0; first < count; first += kLanes) {
             const V index = hn::Iota(d, static_cast<float>(first) + 0.5F);
             const V line = hn::Floor(hn::Mul(index, per_line));
@@ -221,14 +242,13 @@ class ManyPieces {
                 hn::FirstN(d, static_cast<std::size_t>(std::min(kLanes, count - first)));
             const M seen = hn::And(exist, near(tile_, x.value, y.value));
             if (hn::AllFalse(d, seen)) continue;
-            V energy =
-                hn::Mul(per_piece, bilinear(mesh_.power + at, s, i, j, step_i, step_j).value);
-            energy = hn::NegMulAdd(energy, facet_weight(mesh_.smooth + at, s, i, j), energy);
+            V energy = hn::Mul(per_piece, power.at(i, j));
+            if (some_faceted) energy = hn::NegMulAdd(energy, faceted.at(i, j), energy);
             if (masked) {
                 MaskPlace place;
-                place.u = bilinear(mesh_.u + at, s, i, j, step_i, step_j);
-                place.v = bilinear(mesh_.v + at, s, i, j, step_i, step_j);
-                place.clip = bilinear(mesh_.clip + at, s, i, j, step_i, step_j);
+                place.u = u.over_piece(i, j, step_i, step_j);
+                place.v = v.over_piece(i, j, step_i, step_j);
+                place.clip = clip.over_piece(i, j, step_i, step_j);
                 place.entrance_x = hn::MulAdd(hn::Add(i, set(static_cast<float>(column))),
                                               set(mesh_.entrance_step_x), set(mesh_.entrance_x));
                 place.entrance_y = hn::MulAdd(hn::Add(j, set(static_cast<float>(row_))),
