@@ -21,17 +21,11 @@ struct Overlap {
 // One axis of the rectangles of pieces, from their middles and changes over a piece: so many times
 // as wide as a rectangle with the same second moment, and no wider than a pixel.
 HWY_INLINE Overlap lay(V middle, V change_i, V change_j, float times) {
-    constexpr float kThinnest = 1e-3F;
     const V own2 = hn::MulAdd(change_i, change_i, hn::Mul(change_j, change_j));
-    const V width2 = hn::Min(hn::Max(hn::Mul(set(times * times), own2), set(kThinnest * kThinnest)),
-                             set(1));
-    // 1 / width, by Newton's method.
-    const V rough = hn::ApproximateReciprocalSqrt(width2);
-    const V error = hn::NegMulAdd(hn::Mul(width2, rough), rough, set(1));
-    const V per_width = hn::MulAdd(hn::Mul(set(0.5F), rough), error, rough);
-    const V left = hn::NegMulAdd(hn::Mul(set(0.5F), width2), per_width, middle);
+    const V width = hn::Min(hn::Max(hn::Mul(set(times), hn::Sqrt(own2)), set(1e-3F)), set(1));
+    const V left = hn::NegMulAdd(set(0.5F), width, middle);
     const V first = hn::Floor(left);
-    const V share = hn::Mul(hn::Sub(hn::Add(first, set(1)), left), per_width);
+    const V share = hn::Div(hn::Sub(hn::Add(first, set(1)), left), width);
     return {first, hn::Min(share, set(1))};
 }
 

@@ -342,7 +342,7 @@ void throughput(std::span<const RayStep> way, const RayBundle& bundle, float* to
     const float* direction = bundle.direction;
     const float length = std::sqrt(direction[0] * direction[0] + direction[2] * direction[2]);
     for (int row = 0; row < bundle.rows; ++row) {
-        for (int column = 0; column < stride; column += kLanes) {
+        for (int column = 0; column < bundle.columns; column += kLanes) {
             Rays rays = start(bundle, column, row);
             Polarisation p{set(direction[2] / length),
                            hn::Zero(d),

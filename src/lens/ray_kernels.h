@@ -43,7 +43,7 @@ struct RayBundle {
     float direction[3] = {0, 0, 1};  // unit, z > 0
     float x_mm = 0, y_mm = 0;        // of the first ray
     float step_x_mm = 0, step_y_mm = 0;
-    int columns = 0;  // whole blocks of kRayBlock are traced
+    int columns = 0;  // trace() follows whole blocks of kRayBlock
     int rows = 0;
 };
 
