@@ -19,7 +19,9 @@ using M = hn::Mask<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 // Square roots and divisions of one ray wait for each other; so several vectors of rays take each
 // step together.
-constexpr int kTogether = kLanes <= kRayBlock / 2 ? 2 : 1;
+constexpr int kTogether = 4;
+constexpr int kPerRow = std::min(kTogether, kRayBlock / kLanes);
+constexpr int kRowsTogether = kTogether / kPerRow;
 
 V set(float value) { return hn::Set(D(), value); }
 
@@ -211,21 +213,24 @@ HWY_INLINE Rays start(const RayBundle& bundle, int column, int row) {
     return rays;
 }
 
+// kPerRow vectors in each of kRows rows.
+template <int kRows>
 void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& bundle,
-                 const IrisField& iris, int column, int row, std::size_t at, const RayFields& to) {
+                 const IrisField& iris, int column, int row, const RayFields& to) {
+    constexpr int kVectors = kPerRow * kRows;
     const D d;
-    Rays rays[kTogether];
-    V clip2[kTogether];  // squared
-    V other[kTogether];  // distance of the iris at earlier crossings
-    V u[kTogether];
-    V v[kTogether];
-    for (int k = 0; k < kTogether; ++k) {
-        rays[k] = start(bundle, column + k * kLanes, row);
+    Rays rays[kVectors];
+    V clip2[kVectors];  // squared
+    V other[kVectors];  // distance of the iris at earlier crossings
+    V u[kVectors];
+    V v[kVectors];
+    for (int k = 0; k < kVectors; ++k) {
+        rays[k] = start(bundle, column + (k % kPerRow) * kLanes, row + k / kPerRow);
         clip2[k] = other[k] = u[k] = v[k] = hn::Zero(d);
     }
     for (const RayStep& step : way) {
         with_shape(step, [&](auto shape) {
-            for (int k = 0; k < kTogether; ++k) {
+            for (int k = 0; k < kVectors; ++k) {
                 const Hit hit = meet<decltype(shape)::value>(step, rays[k]);
                 const V scale = set(step.per_semi_aperture);
                 const V relative_x = hn::Mul(rays[k].x, scale);
@@ -243,7 +248,10 @@ void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const R
             }
         });
     }
-    for (int k = 0; k < kTogether; ++k, at += static_cast<std::size_t>(kLanes)) {
+    const int stride = ray_stride(bundle.columns);
+    for (int k = 0; k < kVectors; ++k) {
+        const std::ptrdiff_t at =
+            static_cast<std::ptrdiff_t>(row + k / kPerRow) * stride + column + k % kPerRow * kLanes;
         Rays& r = rays[k];
         M alive = hn::And(r.alive, hn::Gt(r.dz, hn::Zero(d)));
         go(r, hn::Div(hn::Sub(set(sensor_distance_mm), r.z), r.dz));
@@ -264,12 +272,15 @@ void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const R
 void trace(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& rays,
            const IrisField& iris, const RayFields& to) {
     const int stride = ray_stride(rays.columns);
-    for (int row = 0; row < rays.rows; ++row) {
-        for (int column = 0; column < stride; column += kTogether * kLanes) {
-            trace_block(way, sensor_distance_mm, rays, iris, column, row,
-                        static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) +
-                            static_cast<std::size_t>(column),
-                        to);
+    int row = 0;
+    for (; row + kRowsTogether <= rays.rows; row += kRowsTogether) {
+        for (int column = 0; column < stride; column += kPerRow * kLanes) {
+            trace_block<kRowsTogether>(way, sensor_distance_mm, rays, iris, column, row, to);
+        }
+    }
+    for (; row < rays.rows; ++row) {
+        for (int column = 0; column < stride; column += kPerRow * kLanes) {
+            trace_block<1>(way, sensor_distance_mm, rays, iris, column, row, to);
         }
     }
 }
