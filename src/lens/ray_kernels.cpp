@@ -346,32 +346,47 @@ HWY_INLINE void polarise(const RayStep& step, const Hit& hit, const Rays& rays, 
     p.ep = hn::Mul(ep, hn::Sqrt(hn::Max(hn::Mul(rs, rp), hn::Zero(d))));
 }
 
-void throughput(std::span<const RayStep> way, const RayBundle& bundle, float* to) {
+// kVectors side by side.
+template <int kVectors>
+void throughput_block(std::span<const RayStep> way, const RayBundle& bundle, int column, int row,
+                      float* to) {
     const D d;
-    const int stride = ray_stride(bundle.columns);
     // Any direction across the light will do.
     const float* direction = bundle.direction;
     const float length = std::sqrt(direction[0] * direction[0] + direction[2] * direction[2]);
-    for (int row = 0; row < bundle.rows; ++row) {
-        for (int column = 0; column < bundle.columns; column += kLanes) {
-            Rays rays = start(bundle, column, row);
-            Polarisation p{set(direction[2] / length),
-                           hn::Zero(d),
-                           set(-direction[0] / length),
-                           set(0.5F),
-                           set(0.5F),
-                           hn::Zero(d)};
-            for (const RayStep& step : way) {
-                with_shape(step, [&](auto shape) {
-                    const Hit hit = meet<decltype(shape)::value>(step, rays);
-                    if (step.reflectance) polarise(step, hit, rays, p);
-                    turn(step, hit, rays);
-                });
+    Rays rays[kVectors];
+    Polarisation p[kVectors];
+    for (int k = 0; k < kVectors; ++k) {
+        rays[k] = start(bundle, column + k * kLanes, row);
+        p[k] = {set(direction[2] / length),
+                hn::Zero(d),
+                set(-direction[0] / length),
+                set(0.5F),
+                set(0.5F),
+                hn::Zero(d)};
+    }
+    for (const RayStep& step : way) {
+        with_shape(step, [&](auto shape) {
+            for (int k = 0; k < kVectors; ++k) {
+                const Hit hit = meet<decltype(shape)::value>(step, rays[k]);
+                if (step.reflectance) polarise(step, hit, rays[k], p[k]);
+                turn(step, hit, rays[k]);
             }
-            const M alive = hn::And(rays.alive, hn::Gt(rays.dz, hn::Zero(d)));
-            hn::StoreU(
-                hn::IfThenElseZero(alive, hn::Add(p.ee, p.pp)), d,
-                to + static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) + column);
+        });
+    }
+    for (int k = 0; k < kVectors; ++k) {
+        const M alive = hn::And(rays[k].alive, hn::Gt(rays[k].dz, hn::Zero(d)));
+        hn::StoreU(hn::IfThenElseZero(alive, hn::Add(p[k].ee, p[k].pp)), d, to + k * kLanes);
+    }
+}
+
+void throughput(std::span<const RayStep> way, const RayBundle& bundle, float* to) {
+    const int stride = ray_stride(bundle.columns);
+    for (int row = 0; row < bundle.rows; ++row, to += stride) {
+        for (int column = 0; column < bundle.columns;) {
+            const bool two = column + kLanes < bundle.columns;
+            (two ? throughput_block<2> : throughput_block<1>)(way, bundle, column, row, to + column);
+            column += two ? 2 * kLanes : kLanes;
         }
     }
 }
