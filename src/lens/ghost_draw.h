@@ -14,7 +14,7 @@ struct GhostDraw {
 // RGB, without gains.
 struct GhostComparison {
     float energy = 0;      // of the traced ghost
-    float difference = 0;  // of |matrix - traced|
+    float difference = -1;  // of |matrix - traced|; negative: not known
 };
 
 }  // namespace aureole::lens

@@ -49,6 +49,7 @@ struct TracedGhosts::Impl {
          std::vector<Bounces> list, const Occluder* occluder)
         : film(a_film),
           side(options.rays_per_side),
+          hybrid(options.method == GhostMethod::kHybrid),
           ghosts(std::move(list)),
           bands(a_lens, ghosts, options.wavelengths),
           mask(an_iris, occluder, options.ghost_texture),
@@ -90,6 +91,7 @@ struct TracedGhosts::Impl {
 
     Film film;
     int side;
+    bool hybrid;
     std::vector<Bounces> ghosts;
     TracedBands bands;
     TracedMask mask;
@@ -269,7 +271,7 @@ void TracedGhosts::compare(const sources::Light& light, std::span<const MatrixGh
         const int index = static_cast<int>(g);
         m.prepare(light, index, worker);
         comparisons[g] = m.comparison.compare(index, light, m.bands, m.now[g].light, m.mask,
-                                              placements[g], worker);
+                                              m.hybrid ? &placements[g] : nullptr, worker);
     });
 }
 

@@ -24,7 +24,8 @@ class TracedGhosts {
     // bits on any number of threads.
     void draw(const sources::Light& light, std::span<const GhostDraw> ghosts, Canvas& canvas);
 
-    // Of every ghost of the list; `placements` are those of the same light.
+    // Of every ghost of the list; `placements` are those of the same light. Differences are only
+    // found for GhostMethod::kHybrid.
     void compare(const sources::Light& light, std::span<const MatrixGhost> placements,
                  std::span<GhostComparison> comparisons);
 
