@@ -215,7 +215,7 @@ HWY_INLINE Rays start(const RayBundle& bundle, int column, int row) {
 
 // kPerRow vectors in each of kRows rows.
 template <int kRows>
-void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& bundle,
+bool trace_block(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& bundle,
                  const IrisField& iris, int column, int row, const RayFields& to) {
     constexpr int kVectors = kPerRow * kRows;
     const D d;
@@ -249,6 +249,7 @@ void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const R
         });
     }
     const int stride = ray_stride(bundle.columns);
+    M all = hn::Eq(hn::Zero(d), hn::Zero(d));
     for (int k = 0; k < kVectors; ++k) {
         const std::ptrdiff_t at =
             static_cast<std::ptrdiff_t>(row + k / kPerRow) * stride + column + k % kPerRow * kLanes;
@@ -261,28 +262,34 @@ void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const R
         alive = hn::And(alive, hn::Lt(hn::MulAdd(u[k], u[k], hn::Mul(v[k], v[k])),
                                       hn::Mul(farthest, farthest)));
         alive = hn::And(alive, hn::Lt(hn::Max(hn::Abs(r.x), hn::Abs(r.y)), farthest));
-        hn::StoreU(hn::IfThenElseZero(alive, r.x), d, to.x + at);
-        hn::StoreU(hn::IfThenElseZero(alive, r.y), d, to.y + at);
+        all = hn::And(all, alive);
+        const V x = hn::IfThenElseZero(alive, r.x);
+        const V y = hn::IfThenElseZero(alive, r.y);
+        hn::StoreU(hn::MulAdd(set(to.scale_x), x, set(to.begin_x)), d, to.x + at);
+        hn::StoreU(hn::MulAdd(set(to.scale_y), y, set(to.begin_y)), d, to.y + at);
         hn::StoreU(hn::IfThenElseZero(alive, u[k]), d, to.u + at);
         hn::StoreU(hn::IfThenElseZero(alive, v[k]), d, to.v + at);
         hn::StoreU(hn::IfThenElse(alive, clip, set(kLostRay)), d, to.clip + at);
     }
+    return !hn::AllTrue(d, all);
 }
 
-void trace(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& rays,
+bool trace(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& rays,
            const IrisField& iris, const RayFields& to) {
     const int stride = ray_stride(rays.columns);
+    bool lost = false;
     int row = 0;
     for (; row + kRowsTogether <= rays.rows; row += kRowsTogether) {
         for (int column = 0; column < stride; column += kPerRow * kLanes) {
-            trace_block<kRowsTogether>(way, sensor_distance_mm, rays, iris, column, row, to);
+            lost |= trace_block<kRowsTogether>(way, sensor_distance_mm, rays, iris, column, row, to);
         }
     }
     for (; row < rays.rows; ++row) {
         for (int column = 0; column < stride; column += kPerRow * kLanes) {
-            trace_block<1>(way, sensor_distance_mm, rays, iris, column, row, to);
+            lost |= trace_block<1>(way, sensor_distance_mm, rays, iris, column, row, to);
         }
     }
+    return lost;
 }
 
 // Unpolarised light as a real coherency matrix (Born & Wolf 10.9) in the directions e, across the

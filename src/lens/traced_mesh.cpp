@@ -179,21 +179,22 @@ void TracedMesh::trace(const MeshJob& job, Mesh& mesh, double i, double j, doubl
     mesh.entrance_y = rays.y_mm;
     mesh.entrance_step_x = rays.step_x_mm;
     mesh.entrance_step_y = rays.step_y_mm;
-    ray_kernels().trace(job.way, job.sensor_distance_mm, rays, job.iris,
-                        {mesh.x, mesh.y, mesh.u, mesh.v, mesh.clip});
-    rays_ += static_cast<std::size_t>(mesh.columns) * static_cast<std::size_t>(mesh.rows);
-
-    // To pixels of the level.
+    // In pixels of the level.
     const Film& film = *job.film;
     const double per_px = 1.0 / (1 << job.level);
     const auto scale = static_cast<float>(per_px / film.mm_per_px);
-    const auto axis_x = static_cast<float>(film.axis_x * per_px);
-    const auto axis_y = static_cast<float>(film.axis_y * per_px);
-    const std::ptrdiff_t count = mesh.stride * mesh.rows;
-    for (std::ptrdiff_t k = 0; k < count; ++k) mesh.x[k] = axis_x - mesh.x[k] * scale;
-    for (std::ptrdiff_t k = 0; k < count; ++k) mesh.y[k] = axis_y + mesh.y[k] * scale;
     const bool some_lost =
-        std::any_of(mesh.clip, mesh.clip + count, [](float c) { return c >= kLostRay; });
+        ray_kernels().trace(job.way, job.sensor_distance_mm, rays, job.iris,
+                            {.x = mesh.x,
+                             .y = mesh.y,
+                             .u = mesh.u,
+                             .v = mesh.v,
+                             .clip = mesh.clip,
+                             .begin_x = static_cast<float>(film.axis_x * per_px),
+                             .begin_y = static_cast<float>(film.axis_y * per_px),
+                             .scale_x = -scale,
+                             .scale_y = scale});
+    rays_ += static_cast<std::size_t>(mesh.columns) * static_cast<std::size_t>(mesh.rows);
     if (some_lost) continue_over_lost(mesh);
 
     const double cell_mm2 = static_cast<double>(rays.step_x_mm) * rays.step_y_mm;
