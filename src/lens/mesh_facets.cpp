@@ -17,7 +17,7 @@ namespace {
 
 using DI = hn::Rebind<std::int32_t, D>;
 
-// Rows of a triangle that are measured together.
+// Rows of a cell that are measured together.
 constexpr int kRowsAtOnce = 16;
 static_assert(kRowsAtOnce % kLanes == 0);
 
@@ -48,8 +48,6 @@ struct Triangles {
     HWY_ALIGN float per_area[kGroup];
     HWY_ALIGN float radiance_x[kGroup];  // per pixel
     HWY_ALIGN float radiance_y[kGroup];
-    HWY_ALIGN std::int32_t y0[kGroup];  // rows whose middles are within
-    HWY_ALIGN std::int32_t y1[kGroup];
 };
 
 // A field that is linear over a triangle: at its first corner, and per pixel.
@@ -121,13 +119,37 @@ class FacetGroup {
             measure_side(cell, 0, s + 1, diagonal_);
             measure_triangles(cell, above_);
             measure_triangles(cell, below_);
+            measure_height(cell);
         }
     }
 
+    // One cell.
     template <bool kMasked>
     void draw(int cell) const {
-        draw_triangle<kMasked>(above_, cell);
-        draw_triangle<kMasked>(below_, cell);
+        const int y1 = y1_[cell];
+        if (y0_[cell] >= y1) return;
+        MaskedFacet above;
+        MaskedFacet below;
+        if constexpr (kMasked) {
+            above = masked_facet(above_, cell);
+            below = masked_facet(below_, cell);
+        }
+        for (int first = y0_[cell]; first < y1; first += kRowsAtOnce) {
+            const int rows = std::min(kRowsAtOnce, y1 - first);
+            RowSpans of_above;
+            RowSpans of_below;
+            measure_rows(cell, first, rows, of_above, of_below);
+            float* row = tile_.sums + (first - tile_.y0 + 1) * tile_.stride - tile_.x0 + 1;
+            for (int k = 0; k < rows; ++k, row += tile_.stride) {
+                if constexpr (kMasked) {
+                    add_masked(above, of_above, above_.radiance_x[cell], k, first, row);
+                    add_masked(below, of_below, below_.radiance_x[cell], k, first, row);
+                } else {
+                    add_ramp(of_above, above_.radiance_x[cell], k, row);
+                    add_ramp(of_below, below_.radiance_x[cell], k, row);
+                }
+            }
+        }
     }
 
   private:
@@ -164,77 +186,64 @@ class FacetGroup {
         hn::Store(per_area, d, t.per_area + cell);
         hn::Store(hn::MulSub(to_b, cy, hn::Mul(to_c, by)), d, t.radiance_x + cell);
         hn::Store(hn::MulSub(to_c, bx, hn::Mul(to_b, cx)), d, t.radiance_y + cell);
+    }
+
+    // Rows whose middles are within.
+    void measure_height(int cell) {
         const auto row = [&](V y) {
             const V whole = hn::Ceil(hn::Sub(y, set(0.5F)));
             return hn::ConvertTo(DI(), hn::Min(hn::Max(whole, set(static_cast<float>(tile_.y0))),
                                                set(static_cast<float>(tile_.y1))));
         };
-        const V ya = load(mesh_.y + a);
-        const V yb = load(mesh_.y + b);
-        const V yc = load(mesh_.y + c);
-        hn::Store(row(hn::Min(hn::Min(ya, yb), yc)), DI(), t.y0 + cell);
-        hn::Store(row(hn::Max(hn::Max(ya, yb), yc)), DI(), t.y1 + cell);
+        const CellBounds y(mesh_.y + first_ + cell, mesh_.stride);
+        hn::Store(row(y.low), DI(), y0_ + cell);
+        hn::Store(row(y.high), DI(), y1_ + cell);
     }
 
-    // Of rows from y on.
-    HWY_INLINE void measure_rows(const Triangles& t, int cell, int first, int rows,
-                                 RowSpans& spans) const {
+    // Of both triangles of a cell, in rows from `first` on.
+    HWY_INLINE void measure_rows(int cell, int first, int rows, RowSpans& above,
+                                 RowSpans& below) const {
         const D d;
-        const float* corner_radiance = mesh_.radiance + first_ + cell;
         const V x_low = set(static_cast<float>(tile_.x0));
         const V x_high = set(static_cast<float>(tile_.x1));
-        // Pixels whose middles are in [low, high).
-        const auto whole = [&](V x) {
-            return hn::Min(hn::Max(hn::Ceil(hn::Sub(x, set(0.5F))), x_low), x_high);
-        };
+        const V corner = set(mesh_.radiance[first_ + cell]);
         for (int k = 0; k < rows; k += kLanes) {
             const V y = hn::Iota(d, static_cast<float>(first + k) + 0.5F);
-            V low = set(1e9F);
-            V high = set(-1e9F);
-            cross(*t.to_b, cell, y, low, high);
-            cross(*t.to_c, cell, y, low, high);
-            cross(diagonal_, cell, y, low, high);
-            const V begin = whole(low);
-            hn::Store(hn::ConvertTo(DI(), begin), DI(), spans.begin + k);
-            hn::Store(hn::ConvertTo(DI(), hn::Sub(whole(high), begin)), DI(), spans.count + k);
-            const V dx = hn::Sub(hn::Add(begin, set(0.5F)), set(diagonal_.x[cell]));
             const V dy = hn::Sub(y, set(diagonal_.y0[cell]));
-            const V radiance =
-                hn::MulAdd(set(t.radiance_x[cell]), dx,
-                           hn::MulAdd(set(t.radiance_y[cell]), dy, set(*corner_radiance)));
-            hn::Store(radiance, d, spans.radiance + k);
+            V diagonal_low = set(1e9F);
+            V diagonal_high = set(-1e9F);
+            cross(diagonal_, cell, y, diagonal_low, diagonal_high);
+            const auto measure = [&](const Triangles& t, RowSpans& spans) {
+                V low = diagonal_low;
+                V high = diagonal_high;
+                cross(*t.to_b, cell, y, low, high);
+                cross(*t.to_c, cell, y, low, high);
+                // Pixels whose middles are in [low, high).
+                const auto whole = [&](V x) {
+                    return hn::Min(hn::Max(hn::Ceil(hn::Sub(x, set(0.5F))), x_low), x_high);
+                };
+                const V begin = whole(low);
+                hn::Store(hn::ConvertTo(DI(), begin), DI(), spans.begin + k);
+                hn::Store(hn::ConvertTo(DI(), hn::Sub(whole(high), begin)), DI(), spans.count + k);
+                const V dx = hn::Sub(hn::Add(begin, set(0.5F)), set(diagonal_.x[cell]));
+                const V radiance =
+                    hn::MulAdd(set(t.radiance_x[cell]), dx,
+                               hn::MulAdd(set(t.radiance_y[cell]), dy, corner));
+                hn::Store(radiance, d, spans.radiance + k);
+            };
+            measure(above_, above);
+            measure(below_, below);
         }
     }
 
-    template <bool kMasked>
-    HWY_INLINE void draw_triangle(const Triangles& t, int cell) const {
-        const int y1 = t.y1[cell];
-        MaskedFacet masked;
-        if constexpr (kMasked) masked = masked_facet(t, cell);
-        for (int first = t.y0[cell]; first < y1; first += kRowsAtOnce) {
-            const int rows = std::min(kRowsAtOnce, y1 - first);
-            RowSpans spans;
-            measure_rows(t, cell, first, rows, spans);
-            float* row = tile_.sums + (first - tile_.y0 + 1) * tile_.stride - tile_.x0 + 1;
-            for (int k = 0; k < rows; ++k, row += tile_.stride) {
-                const int count = spans.count[k];
-                if (count <= 0) continue;
-                const int x = spans.begin[k];
-                if constexpr (kMasked) {
-                    const float dy = static_cast<float>(first + k) + 0.5F - masked.a_y;
-                    add_masked(masked, spans.radiance[k], t.radiance_x[cell], x, dy, count,
-                               row + x);
-                } else {
-                    add_ramp(spans.radiance[k], t.radiance_x[cell], count, row + x);
-                }
-            }
-        }
-    }
-
-    // to[k] += start + k * step.
-    static HWY_INLINE void add_ramp(float start, float step, int count, float* to) {
+    // Adds a row of radiance that changes by `step` per pixel to a row that begins at x = 0.
+    static HWY_INLINE void add_ramp(const RowSpans& spans, float step, int k, float* row) {
         const Short d;
-        auto value = hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, step), hn::Set(d, start));
+        int count = spans.count[k];
+        if (count <= 0) return;
+        float* to = row + spans.begin[k];
+        auto value =
+            hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, step), hn::Set(d, spans.radiance[k]));
         const auto more = hn::Set(d, step * static_cast<float>(kShortLanes));
         for (; count >= kShortLanes; count -= kShortLanes, to += kShortLanes) {
             hn::StoreU(hn::Add(hn::LoadU(d, to), value), d, to);
@@ -246,13 +255,18 @@ class FacetGroup {
     }
 
     // The same, through apertures.
-    void add_masked(const MaskedFacet& facet, float start, float step, int x, float dy, int count,
+    void add_masked(const MaskedFacet& facet, const RowSpans& spans, float step, int row, int first,
                     float* to) const {
         const D d;
-        for (int k = 0; k < count; k += kLanes) {
-            const V radiance = hn::MulAdd(hn::Iota(d, static_cast<float>(k)), set(step), set(start));
-            const V light = hn::Mul(radiance, light_on(facet, mask_, x + k, dy));
-            const M which = hn::FirstN(d, static_cast<std::size_t>(std::min(kLanes, count - k)));
+        const float dy = static_cast<float>(first + row) + 0.5F - facet.a_y;
+        to += spans.begin[row];
+        for (int k = 0; k < spans.count[row]; k += kLanes) {
+            const V radiance =
+                hn::MulAdd(hn::Iota(d, static_cast<float>(k)), set(step), set(spans.radiance[row]));
+            const V light =
+                hn::Mul(radiance, light_on(facet, mask_, spans.begin[row] + k, dy));
+            const int left = std::min(kLanes, spans.count[row] - k);
+            const M which = hn::FirstN(d, static_cast<std::size_t>(left));
             hn::StoreU(hn::Add(load(to + k), hn::IfThenElseZero(which, light)), d, to + k);
         }
     }
@@ -302,6 +316,8 @@ class FacetGroup {
     std::ptrdiff_t first_;  // vertex
     Sides upper_, left_, right_, lower_, diagonal_;
     Triangles above_, below_;
+    HWY_ALIGN std::int32_t y0_[kGroup];
+    HWY_ALIGN std::int32_t y1_[kGroup];
 };
 
 void draw(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask, const MeshTile& tile) {
