@@ -132,6 +132,9 @@ struct FacetWeight {
     }
 };
 
+// Pieces in a row of a cell that are drawn together.
+constexpr int kPart = 24;
+
 // Do places within these bounds, which are those of corners, and what lies between and around them
 // miss [low, high)?
 HWY_INLINE M misses(V least, V most, int low, int high) {
@@ -169,7 +172,6 @@ class ManyPieces {
     }
 
   private:
-    static constexpr int kPart = 24;  // pieces
     static constexpr int kMostParts = kGroup;
 
     // Some of the pieces of a cell that is divided into so many.
@@ -282,14 +284,6 @@ void draw_many(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
     bool some = false;
     for (int cell = 0; cell < kGroup; cell += kLanes) {
         const std::ptrdiff_t at = first + cell;
-        const CellBounds x(mesh.x + at, s);
-        const CellBounds y(mesh.y + at, s);
-        const M beside =
-            hn::Or(misses(x.low, x.high, tile.x0, tile.x1), misses(y.low, y.high, tile.y0, tile.y1));
-        const M drawn =
-            hn::AndNot(beside, hn::And(cells_from(mesh, group.column + cell),
-                                       hn::Ne(load(mesh.share + at), hn::Zero(d))));
-        some = some || !hn::AllFalse(d, drawn);
         const auto pieces = [&](std::ptrdiff_t step, std::ptrdiff_t side, int most) {
             const V cx = largest_changes(mesh.x + at, step, side);
             const V cy = largest_changes(mesh.y + at, step, side);
@@ -297,8 +291,18 @@ void draw_many(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
             const V count = hn::Ceil(hn::Mul(set(kCoarsePiecesPerPx), length));
             return hn::Min(hn::Max(count, set(1)), set(static_cast<float>(most)));
         };
-        hn::Store(hn::IfThenElseZero(drawn, pieces(1, s, group.pieces_i)), d, along + cell);
-        hn::Store(pieces(s, 1, group.pieces_j), d, across + cell);
+        const V pieces_i = pieces(1, s, group.pieces_i);
+        const V pieces_j = pieces(s, 1, group.pieces_j);
+        const M one_part = hn::Le(hn::Max(pieces_i, pieces_j), set(kPart));
+        const CellBounds x(mesh.x + at, s);
+        const CellBounds y(mesh.y + at, s);
+        const M beside = hn::And(one_part, hn::Or(misses(x.low, x.high, tile.x0, tile.x1),
+                                                  misses(y.low, y.high, tile.y0, tile.y1)));
+        const M drawn = hn::AndNot(beside, hn::And(cells_from(mesh, group.column + cell),
+                                                   hn::Ne(load(mesh.share + at), hn::Zero(d))));
+        some = some || !hn::AllFalse(d, drawn);
+        hn::Store(hn::IfThenElseZero(drawn, pieces_i), d, along + cell);
+        hn::Store(pieces_j, d, across + cell);
     }
     if (!some) return;
     const ManyPieces pieces(mesh, group, mask, tile);
