@@ -78,7 +78,7 @@ void continue_throughput(float* values, int columns, int rows, int stride) {
 
 }  // namespace
 
-TracedMesh::SparsePlace::SparsePlace(double index, double every, int nodes) {
+TracedMesh::SparsePlace::SparsePlace(double index, int every, int nodes) {
     const double at = std::clamp(index / every, 0.0, static_cast<double>(nodes - 1));
     const int first = std::min(static_cast<int>(at), nodes - 2);
     const auto t = static_cast<float>(at - first);
@@ -91,9 +91,7 @@ TracedMesh::SparsePlace::SparsePlace(double index, double every, int nodes) {
     for (int k = 0; k < 4; ++k) node[k] = std::clamp(first + k - 1, 0, nodes - 1);
 }
 
-int TracedMesh::sparse_side(int side) {
-    return static_cast<int>(std::ceil((side - 1) / kSparse)) + 1;
-}
+int TracedMesh::sparse_side(int side) { return (side - 1 + kSparse - 1) / kSparse + 1; }
 
 PlaneBox picture_on_sensor(const Film& film, double margin_px) {
     const auto x_mm = [&](double px) { return (film.axis_x - px) * film.mm_per_px; };
@@ -159,8 +157,8 @@ void TracedMesh::allocate(Mesh& mesh, int columns, int rows, float* memory) cons
 void TracedMesh::trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept {
     RayBundle sparse = grid;
     sparse.columns = sparse.rows = sparse_side_;
-    sparse.step_x_mm *= static_cast<float>(sparse_step_);
-    sparse.step_y_mm *= static_cast<float>(sparse_step_);
+    sparse.step_x_mm *= kSparse;
+    sparse.step_y_mm *= kSparse;
     ray_kernels().throughput(job.way, sparse, sparse_);
     rays_ += static_cast<std::size_t>(sparse_side_) * static_cast<std::size_t>(sparse_side_);
     continue_throughput(sparse_, sparse_side_, sparse_side_, ray_stride(sparse_side_));
@@ -207,10 +205,10 @@ void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double s
     const int stride = ray_stride(sparse_side_);
     for (int column = 0; column < mesh.columns; ++column) {
         places_[static_cast<std::size_t>(column)] =
-            SparsePlace(i + column * step, sparse_step_, sparse_side_);
+            SparsePlace(i + column * step, kSparse, sparse_side_);
     }
     for (int row = 0; row < mesh.rows; ++row) {
-        const SparsePlace across(j + row * step, sparse_step_, sparse_side_);
+        const SparsePlace across(j + row * step, kSparse, sparse_side_);
         for (int k = 0; k < sparse_side_; ++k) {
             float sum = 0;
             for (int n = 0; n < 4; ++n)
@@ -306,7 +304,6 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     bounds_ = {};
     side_ = job.side;
     sparse_side_ = sparse_side(side_);
-    sparse_step_ = static_cast<double>(side_ - 1) / (sparse_side_ - 1);
     grid_.columns = grid_.rows = side_;
     grid_.stride = ray_stride(side_);
     // One cell on each side is the rim, which is not drawn.

@@ -52,9 +52,8 @@ class TracedMesh {
     static std::size_t bytes(int side);
 
   private:
-    // Throughput varies slowly: it is traced for about every 4th ray, and interpolated by cubics.
-    // 128 rays become 32, which are whole vectors.
-    static constexpr double kSparse = 4.1;
+    // Throughput varies slowly: it is traced for every 4th ray, and interpolated by cubics.
+    static constexpr int kSparse = 4;
     // A refined cell is divided into kFiner x kFiner; a patch is a run of up to kRun such cells
     // with a rim, one block of rays wide.
     static constexpr int kFiner = 4;
@@ -73,7 +72,7 @@ class TracedMesh {
         int node[4] = {};
         float weight[4] = {};
         SparsePlace() = default;
-        SparsePlace(double index, double every, int nodes);
+        SparsePlace(double index, int every, int nodes);
     };
 
     struct Patch {
@@ -98,7 +97,6 @@ class TracedMesh {
 
     int side_;
     int sparse_side_;
-    double sparse_step_ = 1;  // rays of the grid
     Buffer memory_;
     Mesh grid_;
     Mesh fine_;  // the grid upsampled, if that is what is drawn
