@@ -226,9 +226,8 @@ class FacetGroup {
                 hn::Store(hn::ConvertTo(DI(), begin), DI(), spans.begin + k);
                 hn::Store(hn::ConvertTo(DI(), hn::Sub(whole(high), begin)), DI(), spans.count + k);
                 const V dx = hn::Sub(hn::Add(begin, set(0.5F)), set(diagonal_.x[cell]));
-                const V radiance =
-                    hn::MulAdd(set(t.radiance_x[cell]), dx,
-                               hn::MulAdd(set(t.radiance_y[cell]), dy, corner));
+                const V radiance = hn::MulAdd(set(t.radiance_x[cell]), dx,
+                                              hn::MulAdd(set(t.radiance_y[cell]), dy, corner));
                 hn::Store(radiance, d, spans.radiance + k);
             };
             measure(above_, above);
@@ -242,8 +241,7 @@ class FacetGroup {
         int count = spans.count[k];
         if (count <= 0) return;
         float* to = row + spans.begin[k];
-        auto value =
-            hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, step), hn::Set(d, spans.radiance[k]));
+        auto value = hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, step), hn::Set(d, spans.radiance[k]));
         const auto more = hn::Set(d, step * static_cast<float>(kShortLanes));
         for (; count >= kShortLanes; count -= kShortLanes, to += kShortLanes) {
             hn::StoreU(hn::Add(hn::LoadU(d, to), value), d, to);
@@ -263,8 +261,7 @@ class FacetGroup {
         for (int k = 0; k < spans.count[row]; k += kLanes) {
             const V radiance =
                 hn::MulAdd(hn::Iota(d, static_cast<float>(k)), set(step), set(spans.radiance[row]));
-            const V light =
-                hn::Mul(radiance, light_on(facet, mask_, spans.begin[row] + k, dy));
+            const V light = hn::Mul(radiance, light_on(facet, mask_, spans.begin[row] + k, dy));
             const int left = std::min(kLanes, spans.count[row] - k);
             const M which = hn::FirstN(d, static_cast<std::size_t>(left));
             hn::StoreU(hn::Add(load(to + k), hn::IfThenElseZero(which, light)), d, to + k);
@@ -328,8 +325,8 @@ void draw(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask, const 
     const float* upper = mesh.smooth + group.row * mesh.stride + group.column;
     const float* lower = upper + mesh.stride;
     for (int cell = 0; cell < count; ++cell) {
-        const bool weighs = upper[cell] > 0 || upper[cell + 1] > 0 || lower[cell] > 0 ||
-                            lower[cell + 1] > 0;
+        const bool weighs =
+            upper[cell] > 0 || upper[cell + 1] > 0 || lower[cell] > 0 || lower[cell + 1] > 0;
         if (!weighs) continue;
         if (states[cell] == kCellOpen) facets.draw<false>(cell);
         if (states[cell] == kCellMasked) facets.draw<true>(cell);

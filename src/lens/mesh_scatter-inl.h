@@ -52,8 +52,8 @@ HWY_INLINE void scatter(const MeshTile& tile, const Overlap& x, const Overlap& y
                         V energy) {
     const D d;
     const hn::Rebind<std::int32_t, D> di;
-    const M kept = hn::And(hn::And(which, hn::Gt(energy, hn::Zero(d))),
-                           touching(tile, x.first, y.first));
+    const M kept =
+        hn::And(hn::And(which, hn::Gt(energy, hn::Zero(d))), touching(tile, x.first, y.first));
     const std::size_t count = hn::CountTrue(d, kept);
     if (count == 0) return;
     const V upper = hn::Mul(energy, y.share);

@@ -162,7 +162,8 @@ EntranceFound EntranceSearch::possible(const EntranceQuery& query, std::span<con
     float* hardest = fields_.u;
     const auto widest = static_cast<float>(query.widest);
     for (int k = 0; k < kSide * kSide; ++k) {
-        const float r = std::sqrt(fields_.u[k] * fields_.u[k] + fields_.v[k] * fields_.v[k]) / widest;
+        const float r =
+            std::sqrt(fields_.u[k] * fields_.u[k] + fields_.v[k] * fields_.v[k]) / widest;
         hardest[k] = std::max(fields_.clip[k], r);
     }
     const CellRanges pass(hardest, fields_.clip);

@@ -281,7 +281,8 @@ bool trace(std::span<const RayStep> way, float sensor_distance_mm, const RayBund
     int row = 0;
     for (; row + kRowsTogether <= rays.rows; row += kRowsTogether) {
         for (int column = 0; column < stride; column += kPerRow * kLanes) {
-            lost |= trace_block<kRowsTogether>(way, sensor_distance_mm, rays, iris, column, row, to);
+            lost |=
+                trace_block<kRowsTogether>(way, sensor_distance_mm, rays, iris, column, row, to);
         }
     }
     for (; row < rays.rows; ++row) {
@@ -392,7 +393,8 @@ void throughput(std::span<const RayStep> way, const RayBundle& bundle, float* to
     for (int row = 0; row < bundle.rows; ++row, to += stride) {
         for (int column = 0; column < bundle.columns;) {
             const bool two = column + kLanes < bundle.columns;
-            (two ? throughput_block<2> : throughput_block<1>)(way, bundle, column, row, to + column);
+            (two ? throughput_block<2> : throughput_block<1>)(way, bundle, column, row,
+                                                              to + column);
             column += two ? 2 * kLanes : kLanes;
         }
     }

@@ -216,7 +216,7 @@ TracedGhosts::~TracedGhosts() = default;
 TracedGhosts::TracedGhosts(TracedGhosts&&) noexcept = default;
 
 void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> ghosts,
-                        Canvas& canvas) {
+                        Canvas& canvas, const ProgressPart& progress) {
     Impl& m = *impl_;
     if (!m.tiles) m.tiles.emplace(canvas);
     m.rays = 0;
@@ -230,6 +230,7 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
     std::size_t next = 0;
     int band = 0;
     while (next < ghosts.size()) {
+        progress.reach(static_cast<double>(next) / static_cast<double>(ghosts.size()));
         m.items.clear();
         while (next < ghosts.size() && m.items.size() < m.meshes.size()) {
             const GhostNow& ghost = m.of(ghosts[next]);

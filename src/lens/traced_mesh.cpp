@@ -181,17 +181,16 @@ void TracedMesh::trace(const MeshJob& job, Mesh& mesh, double i, double j, doubl
     const Film& film = *job.film;
     const double per_px = 1.0 / (1 << job.level);
     const auto scale = static_cast<float>(per_px / film.mm_per_px);
-    const bool some_lost =
-        ray_kernels().trace(job.way, job.sensor_distance_mm, rays, job.iris,
-                            {.x = mesh.x,
-                             .y = mesh.y,
-                             .u = mesh.u,
-                             .v = mesh.v,
-                             .clip = mesh.clip,
-                             .begin_x = static_cast<float>(film.axis_x * per_px),
-                             .begin_y = static_cast<float>(film.axis_y * per_px),
-                             .scale_x = -scale,
-                             .scale_y = scale});
+    const bool some_lost = ray_kernels().trace(job.way, job.sensor_distance_mm, rays, job.iris,
+                                               {.x = mesh.x,
+                                                .y = mesh.y,
+                                                .u = mesh.u,
+                                                .v = mesh.v,
+                                                .clip = mesh.clip,
+                                                .begin_x = static_cast<float>(film.axis_x * per_px),
+                                                .begin_y = static_cast<float>(film.axis_y * per_px),
+                                                .scale_x = -scale,
+                                                .scale_y = scale});
     rays_ += static_cast<std::size_t>(mesh.columns) * static_cast<std::size_t>(mesh.rows);
     if (some_lost) continue_over_lost(mesh);
 
