@@ -46,7 +46,7 @@ HWY_INLINE V between(float t, const float* from, std::ptrdiff_t step) {
 
 // The values of a group's vertices on a line across its cells, interpolated over rows: from the
 // vertex before the group on.
-constexpr int kLine = ((kGroup + 3 + kLanes - 1) / kLanes) * kLanes;
+inline constexpr int kLine = ((kGroup + 3 + kLanes - 1) / kLanes) * kLanes;
 
 struct Line {
     HWY_ALIGN float x[kLine];
@@ -154,8 +154,8 @@ HWY_INLINE V facet_weight(const Line& line, int lane, float t, float tj) {
 }
 
 // Cells of few pieces: a lane for each cell, one piece of each at a time.
-void draw_few(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
-              const MeshTile& tile) {
+inline void draw_few(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
+                     const MeshTile& tile) {
     const D d;
     Line line;
     const bool masked = group.masked;

@@ -51,7 +51,7 @@ struct FacetWeight {
 };
 
 // Pieces in a row of a cell that are drawn together.
-constexpr int kPart = 24;
+inline constexpr int kPart = 24;
 
 // Do places within these bounds, which are those of corners, and what lies between and around them
 // miss [low, high)?
@@ -191,8 +191,8 @@ class ManyPieces {
 };
 
 // Draws each cell of a group, at most divided as the group is.
-void draw_many(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
-               const MeshTile& tile) {
+inline void draw_many(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask,
+                      const MeshTile& tile) {
     const D d;
     const std::ptrdiff_t s = mesh.stride;
     const std::ptrdiff_t first = group.row * s + group.column;

@@ -15,7 +15,7 @@ namespace {
 using DI = hn::Rebind<std::int32_t, D>;
 
 // Rows of a cell that are measured together.
-constexpr int kRowsAtOnce = 16;
+inline constexpr int kRowsAtOnce = 16;
 static_assert(kRowsAtOnce % kLanes == 0);
 
 HWY_INLINE V safe_quotient(V a, V b) {
