@@ -6,6 +6,8 @@
 #define AUREOLE_LENS_MESH_SCATTER_INL_H_
 #endif
 
+#include <bit>
+
 #include "lens/mesh_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -54,8 +56,7 @@ HWY_INLINE void scatter(const MeshTile& tile, const Overlap& x, const Overlap& y
     const hn::Rebind<std::int32_t, D> di;
     const M kept =
         hn::And(hn::And(which, hn::Gt(energy, hn::Zero(d))), touching(tile, x.first, y.first));
-    const std::size_t count = hn::CountTrue(d, kept);
-    if (count == 0) return;
+    if (hn::AllFalse(d, kept)) return;
     const V upper = hn::Mul(energy, y.share);
     const V lower = hn::Sub(energy, upper);
     const V upper_left = hn::Mul(upper, x.share);
@@ -65,17 +66,17 @@ HWY_INLINE void scatter(const MeshTile& tile, const Overlap& x, const Overlap& y
     const auto at =
         hn::Add(hn::Mul(row, hn::Set(di, static_cast<std::int32_t>(tile.stride))), column);
     // Two pixels of a row at a time.
-    HWY_ALIGN float pairs[2][4 * kGroup];
-    HWY_ALIGN std::int32_t offset[2 * kGroup];
-    const auto store_pairs = [&](V left, V both, float* to) {
-        left = hn::Compress(left, kept);
-        hn::StoreInterleaved2(left, hn::Sub(hn::Compress(both, kept), left), d, to);
-    };
-    store_pairs(upper_left, upper, pairs[0]);
-    store_pairs(lower_left, lower, pairs[1]);
-    hn::StoreU(hn::Compress(at, hn::RebindMask(di, kept)), di, offset);
+    HWY_ALIGN float pairs[2][2 * kGroup];
+    HWY_ALIGN std::int32_t offset[kGroup];
+    hn::StoreInterleaved2(upper_left, hn::Sub(upper, upper_left), d, pairs[0]);
+    hn::StoreInterleaved2(lower_left, hn::Sub(lower, lower_left), d, pairs[1]);
+    hn::Store(at, di, offset);
+    static_assert(kGroup <= 16);
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, kept, bytes);
     const hn::CappedTag<float, 2> d2;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (unsigned left = bytes[0] | bytes[1] * 256U; left != 0; left &= left - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(left));
         float* to = tile.sums + offset[k];
         for (int row_pair = 0; row_pair < 2; ++row_pair, to += tile.stride) {
             if constexpr (hn::MaxLanes(d2) == 2) {
