@@ -11,6 +11,7 @@
 #include "film.h"
 #include "flare_plan.h"
 #include "matrix_ghosts.h"
+#include "progress_part.h"
 #include "traced_ghosts.h"
 
 namespace aureole::lens {
@@ -113,8 +114,10 @@ struct Flare::Impl {
     }
 
     void estimate(const sources::Light& light);
-    void draw(const sources::Light& light);
-    void add_to_report(const PlanTotals& totals, double share_of_light);
+    void draw(const sources::Light& light, const ProgressPart& progress);
+    void render(std::span<const sources::Light> lights, const ProgressPart& progress);
+    void clear_report();
+    void add_to_report(const PlanTotals& totals, double energy, bool first_light);
 
     FlareOptions options;
     Film film;
@@ -157,7 +160,7 @@ void Flare::Impl::estimate(const sources::Light& light) {
     }
 }
 
-void Flare::Impl::draw(const sources::Light& light) {
+void Flare::Impl::draw(const sources::Light& light, const ProgressPart& progress) {
     by_matrix.clear();
     by_rays.clear();
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -169,18 +172,23 @@ void Flare::Impl::draw(const sources::Light& light) {
     }
     matrix.draw(by_matrix, canvas);
     if (!by_rays.empty()) {
-        traced->draw(light, by_rays, canvas);
+        traced->draw(light, by_rays, canvas, progress);
         report.rays += traced->rays();
     }
 }
 
-void Flare::Impl::add_to_report(const PlanTotals& totals, double energy) {
+void Flare::Impl::clear_report() {
+    for (std::size_t i = 0; i < list.size(); ++i) report.ghosts[i] = {.bounces = list[i]};
+    report.energy_dropped = report.coarse_displaced = 0;
+    report.rays = 0;
+}
+
+void Flare::Impl::add_to_report(const PlanTotals& totals, double energy, bool first_light) {
     const auto placements = matrix.placements();
     for (std::size_t i = 0; i < list.size(); ++i) {
         GhostReport& ghost = report.ghosts[i];
         // A ghost that any light makes is reported as drawn for the light that matters most to it.
-        const bool first = ghost.bounces.direct();
-        if (!first && estimates[i].energy <= ghost.energy) continue;
+        if (!first_light && estimates[i].energy <= ghost.energy) continue;
         const MatrixGhost& place = placements[i];
         ghost = {list[i],
                  plans[i].drawn,
@@ -206,42 +214,44 @@ Flare::~Flare() = default;
 Flare::Flare(Flare&&) noexcept = default;
 Flare& Flare::operator=(Flare&&) noexcept = default;
 
-void Flare::render(std::span<const sources::Light> lights, const ImageView& out,
-                   Progress* progress) {
-    Impl& flare = *impl_;
-    FlareReport& report = flare.report;
-    std::fill(report.ghosts.begin(), report.ghosts.end(), GhostReport{});
-    report.energy_dropped = report.coarse_displaced = 0;
-    report.rays = 0;
-    for (std::size_t i = 0; i < flare.list.size(); ++i) report.ghosts[i].bounces = Bounces{};
-    flare.canvas.clear();
+// Onto the canvas.
+void Flare::Impl::render(std::span<const sources::Light> lights, const ProgressPart& progress) {
+    // What estimates take, of traced ghosts.
+    constexpr double kEstimates = 0.1;
+    clear_report();
+    canvas.clear();
     double energy = 0;
-    std::size_t done = 0;
-    for (const sources::Light& light : lights) {
-        if (progress != nullptr) {
-            if (progress->cancelled()) throw Cancelled();
-            progress->report("ghosts",
-                             static_cast<double>(done++) / static_cast<double>(lights.size()));
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+        const auto count = static_cast<double>(lights.size());
+        const ProgressPart of_light =
+            progress.part(static_cast<double>(k) / count, static_cast<double>(k + 1) / count);
+        of_light.reach(0);
+        estimate(lights[k]);
+        const PlanTotals totals = plan_ghosts(estimates, options, canvas.levels() - 1, plans);
+        draw(lights[k], of_light.part(kEstimates, 1));
+        double sum = 0;
+        for (const GhostEstimate& ghost : estimates) {
+            if (ghost.enabled) sum += ghost.energy;
         }
-        flare.estimate(light);
-        const PlanTotals totals =
-            plan_ghosts(flare.estimates, flare.options, flare.canvas.levels() - 1, flare.plans);
-        flare.draw(light);
-        double of_light = 0;
-        for (const GhostEstimate& ghost : flare.estimates) {
-            if (ghost.enabled) of_light += ghost.energy;
-        }
-        flare.add_to_report(totals, of_light);
-        energy += of_light;
+        add_to_report(totals, sum, k == 0);
+        energy += sum;
     }
-    for (std::size_t i = 0; i < flare.list.size(); ++i) {
-        report.ghosts[i].bounces = flare.list[i];
-    }
+    progress.reach(1);
     if (energy > 0) {
         report.energy_dropped /= energy;
         report.coarse_displaced /= energy;
     }
-    flare.canvas.add_to(out);
+}
+
+void Flare::render(std::span<const sources::Light> lights, const ImageView& out,
+                   Progress* progress) {
+    try {
+        impl_->render(lights, {.progress = progress, .stage = "ghosts"});
+    } catch (const Cancelled&) {
+        impl_->clear_report();
+        throw;
+    }
+    impl_->canvas.add_to(out);
 }
 
 std::span<const GhostPlacement> Flare::place(const sources::Light& light) noexcept {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -114,19 +116,61 @@ TEST(Flare, WhatIsWrongIsNamed) {
     EXPECT_THROW(ghost_method_from_name("magic"), InvalidArgument);
 }
 
-class StopAtOnce : public Progress {
-    bool cancelled() const override { return true; }
+// Asks to stop after so many reports.
+class StopAfter : public Progress {
+  public:
+    explicit StopAfter(int reports) : left_(reports) {}
+    void report(std::string_view, double fraction) override {
+        EXPECT_GE(fraction, last);
+        last = fraction;
+        --left_;
+        ++count;
+    }
+    bool cancelled() const override { return left_ <= 0; }
+
+    double last = 0;
+    int count = 0;
+
+  private:
+    int left_;
 };
 
-TEST(Flare, CanBeStopped) {
+TEST(Flare, CanBeStoppedWithinALight) {
     const Lens lens(shipped_lens("tessar"));
     const View view = small_view();
-    const sources::Light light = some_light(view);
-    Flare flare(lens, Iris(), view);
-    Image picture(view.width, view.height, 3);
-    StopAtOnce progress;
-    EXPECT_THROW(flare.render({&light, 1}, picture, &progress), Cancelled);
-    EXPECT_EQ(sum(picture), 0);
+    const std::array lights = {some_light(view), sources::light_at(view, 20, 50, {1, 1, 1})};
+    for (const GhostMethod method :
+         {GhostMethod::kMatrix, GhostMethod::kTraced, GhostMethod::kHybrid}) {
+        FlareOptions options;
+        options.method = method;
+        options.energy_dropped = 0;
+        options.hybrid_tolerance = 1e-3;
+        options.wavelengths = 2;
+        Flare flare(lens, Iris(), view, options);
+        Image whole(view.width, view.height, 3);
+        StopAfter never(1000);
+        flare.render(lights, whole, &never);
+        EXPECT_EQ(never.last, 1);
+        // Both lights and the end, and with rays more than that.
+        EXPECT_GE(never.count, method == GhostMethod::kMatrix ? 3 : 6);
+        EXPECT_GT(sum(whole), 0);
+        for (int reports = 0; reports < never.count; ++reports) {
+            Image picture(view.width, view.height, 3);
+            StopAfter progress(reports);
+            EXPECT_THROW(flare.render(lights, picture, &progress), Cancelled);
+            EXPECT_EQ(progress.count, reports);
+            EXPECT_EQ(sum(picture), 0);
+            EXPECT_EQ(flare.report().rays, 0U);
+            for (const GhostReport& ghost : flare.report().ghosts) EXPECT_EQ(ghost.energy, 0);
+        }
+        // Nothing is left of what was stopped.
+        Image again(view.width, view.height, 3);
+        flare.render(lights, again);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_TRUE(
+                std::equal(again.plane(c), again.plane(c) + again.pixels(), whole.plane(c)));
+        }
+    }
 }
 
 }  // namespace

@@ -59,13 +59,14 @@ GhostCompare::GhostCompare(const Film& film, const TracedBands& bands) : film_(f
 
 GhostComparison GhostCompare::compare(int ghost, const sources::Light& light,
                                       const TracedBands& bands, const GhostLight& prepared,
-                                      const TracedMask& mask, const MatrixGhost& placement,
+                                      const TracedMask& mask, const MatrixGhost* placement,
                                       int worker) {
     Work& work = work_[static_cast<std::size_t>(worker)];
     const Iris& iris = mask.iris();
     const RayDirection direction(light);
     const EntranceFound& found = prepared.found;
-    const bool linear = placement.u_per_px != 0 && placement.v_per_px != 0;
+    const bool linear =
+        placement != nullptr && placement->u_per_px != 0 && placement->v_per_px != 0;
     const bool traced = !found.entrance.empty();
     if (!traced && !linear) return {};
 
@@ -76,10 +77,10 @@ GhostComparison GhostCompare::compare(int ghost, const sources::Light& light,
                film_.py(found.sensor.y1)};
     }
     if (linear) {
-        const double reach_x = iris.outer_radius() / std::abs(placement.u_per_px) + 1;
-        const double reach_y = iris.outer_radius() / std::abs(placement.v_per_px) + 1;
-        const PlaneBox placed = {placement.center_x - reach_x, placement.center_x + reach_x,
-                                 placement.center_y - reach_y, placement.center_y + reach_y};
+        const double reach_x = iris.outer_radius() / std::abs(placement->u_per_px) + 1;
+        const double reach_y = iris.outer_radius() / std::abs(placement->v_per_px) + 1;
+        const PlaneBox placed = {placement->center_x - reach_x, placement->center_x + reach_x,
+                                 placement->center_y - reach_y, placement->center_y + reach_y};
         box = traced ? box.around(placed) : placed;
     }
     box = {std::max(box.x0, 0.0), std::min(box.x1, static_cast<double>(film_.width)),
@@ -96,8 +97,16 @@ GhostComparison GhostCompare::compare(int ghost, const sources::Light& light,
     bins.rows = count(box.y1 - box.y0);
     bins.last_column = std::min(1.0, (box.x1 - box.x0) / bins.size - (bins.columns - 1));
     bins.last_row = std::min(1.0, (box.y1 - box.y0) / bins.size - (bins.rows - 1));
-    std::fill(work.coverage.begin(), work.coverage.end(), 0.0F);
-    if (linear) draw_placement(placement, iris, bins, work.coverage.data());
+    const auto bin_count = static_cast<std::size_t>(bins.columns * bins.rows);
+    std::fill(work.difference.begin(), work.difference.end(), 0.0F);
+    if (linear) {
+        draw_placement(*placement, iris, bins, work.coverage.data());
+        for (std::size_t c = 0; c < 3; ++c) {
+            for (std::size_t k = 0; k < bin_count; ++k) {
+                work.difference[c * bin_count + k] = -placement->radiance[c] * work.coverage[k];
+            }
+        }
+    }
 
     // The bins as a picture.
     Film film = film_;
@@ -122,12 +131,6 @@ GhostComparison GhostCompare::compare(int ghost, const sources::Light& light,
                                  (film.irradiance_per_radiance * film.mm_per_px * film.mm_per_px)};
     MeshTile tile{
         .sums = work.sums.data(), .stride = bins.columns + 2, .x1 = bins.columns, .y1 = bins.rows};
-    const auto bin_count = static_cast<std::size_t>(bins.columns * bins.rows);
-    for (std::size_t c = 0; c < 3; ++c) {
-        for (std::size_t k = 0; k < bin_count; ++k) {
-            work.difference[c * bin_count + k] = -placement.radiance[c] * work.coverage[k];
-        }
-    }
     double energy = 0;
     // With many bands, one stands for its neighbours.
     const int each = (bands.count() + kMostBands - 1) / kMostBands;
@@ -153,6 +156,10 @@ GhostComparison GhostCompare::compare(int ghost, const sources::Light& light,
             }
         }
     }
+    const double area = bins.size * bins.size;
+    GhostComparison result;
+    result.energy = static_cast<float>(std::max(0.0, energy * area));
+    if (placement == nullptr) return result;
     double difference = 0;
     const float* from = work.difference.data();
     for (int c = 0; c < 3; ++c) {
@@ -162,9 +169,8 @@ GhostComparison GhostCompare::compare(int ghost, const sources::Light& light,
             }
         }
     }
-    const double area = bins.size * bins.size;
-    return {static_cast<float>(std::max(0.0, energy * area)),
-            static_cast<float>(difference * area)};
+    result.difference = static_cast<float>(difference * area);
+    return result;
 }
 
 }  // namespace aureole::lens

@@ -20,10 +20,11 @@ class GhostCompare {
   public:
     GhostCompare(const Film& film, const TracedBands& bands);
 
-    // One ghost of a light that was prepared; scratch memory is that of the worker.
+    // One ghost of a light that was prepared; scratch memory is that of the worker. Without a
+    // placement only the energy is found.
     GhostComparison compare(int ghost, const sources::Light& light, const TracedBands& bands,
                             const GhostLight& prepared, const TracedMask& mask,
-                            const MatrixGhost& placement, int worker);
+                            const MatrixGhost* placement, int worker);
 
   private:
     static constexpr int kBins = 40;

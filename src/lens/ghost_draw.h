@@ -13,8 +13,8 @@ struct GhostDraw {
 // What few exact rays say of a ghost beside its placement: sums over the pixels of the picture and
 // RGB, without gains.
 struct GhostComparison {
-    float energy = 0;      // of the traced ghost
-    float difference = 0;  // of |matrix - traced|
+    float energy = 0;       // of the traced ghost
+    float difference = -1;  // of |matrix - traced|; negative: not known
 };
 
 }  // namespace aureole::lens

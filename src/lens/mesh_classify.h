@@ -1,4 +1,4 @@
-// What there is to draw of a mesh, and in which way.
+// What there is to draw of a mesh, and where it needs more rays.
 #pragma once
 
 #include "lens/mesh_types.h"
@@ -15,14 +15,7 @@ struct ClassifyOptions {
     bool upsampled = false;
 };
 
-struct MeshClassifier {
-    // Mesh::state from x, y, u, v, clip.
-    void (*classify)(const Mesh& mesh, const ClassifyOptions& options);
-    // Weights, radiance and shares from power and states (those still kCellRefined are not drawn),
-    // and the groups to draw, at most 2 * rows * (columns / kGroup + 1). Returns their number.
-    int (*divide)(const Mesh& mesh, MeshGroup* groups);
-};
-
-const MeshClassifier& mesh_classifier();
+// Mesh::state from x, y, u, v, clip.
+void classify(const Mesh& mesh, const ClassifyOptions& options);
 
 }  // namespace aureole::lens

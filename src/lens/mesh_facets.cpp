@@ -1,7 +1,6 @@
 #include "lens/mesh_facets.h"
 
 #include <cmath>
-#include <utility>
 
 #include "lens/simd.h"
 
@@ -10,77 +9,27 @@
 #include <hwy/foreach_target.h>
 // Must come after foreach_target.h.
 #include "lens/mesh_mask-inl.h"
+#include "lens/mesh_triangles-inl.h"
 #include "lens/mesh_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aureole::lens::HWY_NAMESPACE {
 namespace {
 
-constexpr int kRowsAtOnce = 16;
-static_assert(kRowsAtOnce % kLanes == 0);
+// Most facets are a few pixels wide.
+using Short = hn::CappedTag<float, 8>;
+constexpr int kShortLanes = static_cast<int>(hn::MaxLanes(Short()));
 
-// A side of a triangle, from its first vertex in the order of the mesh to its second: both
-// triangles that share it cross a row at the same float.
-struct Side {
-    float x = 0, y0 = 0, y1 = 0, dx_dy = 0;
-};
-
-struct Corner {
-    std::ptrdiff_t at;  // vertex
-    float x, y;
-};
-
-Side side_between(const Corner& a, const Corner& b) {
-    const float dy = b.y - a.y;
-    return {a.x, a.y, b.y, dy != 0 ? (b.x - a.x) / dy : 0.0F};
-}
-
-// Widens [low, high] to where a side crosses rows at heights y. Of the two ends of a side one
-// counts, so that a row that runs through a vertex crosses one of the two sides that meet there.
-HWY_INLINE void cross(const Side& side, V y, V& low, V& high) {
-    const M above = hn::Le(set(side.y0), y);
-    const M below = hn::Le(set(side.y1), y);
-    const M crossed = hn::Xor(above, below);
-    const V x = hn::MulAdd(hn::Sub(y, set(side.y0)), set(side.dx_dy), set(side.x));
-    low = hn::IfThenElse(crossed, hn::Min(low, x), low);
-    high = hn::IfThenElse(crossed, hn::Max(high, x), high);
-}
-
-struct Triangle {
-    Corner a, b, c;
-    Side ab, bc, ac;
-};
-
-// A field that is linear over a triangle.
+// A field that is linear over a triangle: at its first corner, and per pixel.
 struct Gradient {
-    float value = 0, x = 0, y = 0;  // at the first corner, and per pixel
+    float value = 0, x = 0, y = 0;
 };
 
-class Plane {
-  public:
-    explicit Plane(const Triangle& t)
-        : bx_(t.b.x - t.a.x), by_(t.b.y - t.a.y), cx_(t.c.x - t.a.x), cy_(t.c.y - t.a.y) {
-        const float area = bx_ * cy_ - cx_ * by_;
-        per_area_ = area != 0 ? 1 / area : 0;
-    }
-    Gradient through(float a, float b, float c) const {
-        const float to_b = (b - a) * per_area_;
-        const float to_c = (c - a) * per_area_;
-        return {a, to_b * cy_ - to_c * by_, to_c * bx_ - to_b * cx_};
-    }
-    Gradient of(const float* field, const Triangle& t) const {
-        return through(field[t.a.at], field[t.b.at], field[t.c.at]);
-    }
-
-  private:
-    float bx_, by_, cx_, cy_, per_area_;
-};
-
-// What a triangle's pixels receive.
-struct Facet {
-    float a_x = 0, a_y = 0;
-    Gradient radiance;
+// What apertures need to know of a triangle.
+struct MaskedFacet {
+    float a_x = 0, a_y = 0;  // the first corner
     Gradient u, v, clip, entrance_x, entrance_y;
+    float entrance_width = 0;
 };
 
 // At pixels from (x, y) on, of which the position relative to the first corner is given.
@@ -88,132 +37,155 @@ HWY_INLINE V at_pixels(const Gradient& field, V dx, float dy) {
     return hn::MulAdd(set(field.x), dx, set(field.value + field.y * dy));
 }
 
-template <bool kMasked>
-HWY_INLINE V light_on(const Facet& facet, const MeshMask& mask, float entrance_width, int x,
-                      float dy) {
+// How much light passes at pixels from x on, `dy` below the first corner.
+HWY_INLINE V light_on(const MaskedFacet& facet, const MeshMask& mask, int x, float dy) {
     const V dx = hn::Iota(D(), static_cast<float>(x) + 0.5F - facet.a_x);
-    V radiance = at_pixels(facet.radiance, dx, dy);
-    if constexpr (kMasked) {
-        const auto field = [&](const Gradient& gradient) {
-            return MaskField{at_pixels(gradient, dx, dy), set(gradient.x), set(gradient.y)};
-        };
-        MaskPlace at;
-        at.u = field(facet.u);
-        at.v = field(facet.v);
-        at.clip = field(facet.clip);
-        at.entrance_x = at_pixels(facet.entrance_x, dx, dy);
-        at.entrance_y = at_pixels(facet.entrance_y, dx, dy);
-        at.entrance_width = entrance_width;
-        radiance = hn::Mul(radiance, light_at(mask, at));
-    }
-    return radiance;
+    const auto field = [&](const Gradient& gradient) {
+        return MaskField{at_pixels(gradient, dx, dy), set(gradient.x), set(gradient.y)};
+    };
+    MaskPlace at;
+    at.u = field(facet.u);
+    at.v = field(facet.v);
+    at.clip = field(facet.clip);
+    at.entrance_x = at_pixels(facet.entrance_x, dx, dy);
+    at.entrance_y = at_pixels(facet.entrance_y, dx, dy);
+    at.entrance_width = facet.entrance_width;
+    return light_at(mask, at);
 }
 
-template <bool kMasked>
-void draw_triangle(const Mesh& mesh, const Triangle& t, const MeshMask& mask,
-                   const MeshTile& tile) {
-    const D d;
-    const hn::Rebind<std::int32_t, D> di;
-    const auto [least, most] = std::minmax({t.a.y, t.b.y, t.c.y});
-    // Rows whose middles are within.
-    const int y0 = std::max(tile.y0, static_cast<int>(std::ceil(least - 0.5F)));
-    const int y1 = std::min(tile.y1, static_cast<int>(std::ceil(most - 0.5F)));
-    if (y0 >= y1) return;
-    const Plane plane(t);
-    Facet facet;
-    facet.a_x = t.a.x;
-    facet.a_y = t.a.y;
-    facet.radiance = plane.of(mesh.radiance, t);
-    float entrance_width = 0;
-    if constexpr (kMasked) {
-        facet.u = plane.of(mesh.u, t);
-        facet.v = plane.of(mesh.v, t);
-        facet.clip = plane.of(mesh.clip, t);
-        if (mask.extra) {
-            const auto entrance = [&](std::ptrdiff_t k) {
-                const std::ptrdiff_t j = k / mesh.stride;
-                const auto i = static_cast<float>(k - j * mesh.stride);
-                return std::pair(mesh.entrance_x + i * mesh.entrance_step_x,
-                                 mesh.entrance_y + static_cast<float>(j) * mesh.entrance_step_y);
-            };
-            const auto [ax, ay] = entrance(t.a.at);
-            const auto [bx, by] = entrance(t.b.at);
-            const auto [cx, cy] = entrance(t.c.at);
-            facet.entrance_x = plane.through(ax, bx, cx);
-            facet.entrance_y = plane.through(ay, by, cy);
-            entrance_width = std::sqrt(std::abs(facet.entrance_x.x * facet.entrance_y.y -
-                                                facet.entrance_x.y * facet.entrance_y.x));
+class FacetGroup {
+  public:
+    FacetGroup(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask, const MeshTile& tile)
+        : mesh_(mesh),
+          mask_(mask),
+          tile_(tile),
+          first_(group.row * mesh.stride + group.column),
+          triangles_(mesh, group, tile) {}
+
+    // One cell.
+    template <bool kMasked>
+    void draw(int cell) const {
+        const int y1 = triangles_.y1(cell);
+        if (triangles_.y0(cell) >= y1) return;
+        const Triangles& above = triangles_.above();
+        const Triangles& below = triangles_.below();
+        MaskedFacet masked_above;
+        MaskedFacet masked_below;
+        if constexpr (kMasked) {
+            masked_above = masked_facet(above, cell);
+            masked_below = masked_facet(below, cell);
         }
-    }
-    for (int first = y0; first < y1; first += kRowsAtOnce) {
-        HWY_ALIGN std::int32_t begin[kRowsAtOnce];
-        HWY_ALIGN std::int32_t end[kRowsAtOnce];
-        for (int k = 0; k < kRowsAtOnce && first + k < y1; k += kLanes) {
-            const V y = hn::Iota(d, static_cast<float>(first + k) + 0.5F);
-            V low = set(1e9F);
-            V high = set(-1e9F);
-            cross(t.ab, y, low, high);
-            cross(t.bc, y, low, high);
-            cross(t.ac, y, low, high);
-            // Pixels whose middles are in [low, high).
-            const auto whole = [&](V x) {
-                const V clamped = hn::Min(
-                    hn::Max(hn::Ceil(hn::Sub(x, set(0.5F))), set(static_cast<float>(tile.x0))),
-                    set(static_cast<float>(tile.x1)));
-                return hn::ConvertTo(di, clamped);
-            };
-            hn::Store(whole(low), di, begin + k);
-            hn::Store(whole(high), di, end + k);
-        }
-        const int rows = std::min(kRowsAtOnce, y1 - first);
-        for (int k = 0; k < rows; ++k) {
-            int x = begin[k];
-            const float dy = static_cast<float>(first + k) + 0.5F - facet.a_y;
-            float* to = tile.sums + (first + k - tile.y0 + 1) * tile.stride + x - tile.x0 + 1;
-            for (; x + kLanes <= end[k]; x += kLanes, to += kLanes) {
-                const V light = light_on<kMasked>(facet, mask, entrance_width, x, dy);
-                hn::StoreU(hn::Add(load(to), light), d, to);
-            }
-            if (x < end[k]) {
-                const V light = light_on<kMasked>(facet, mask, entrance_width, x, dy);
-                const M rest = hn::FirstN(d, static_cast<std::size_t>(end[k] - x));
-                hn::StoreU(hn::Add(load(to), hn::IfThenElseZero(rest, light)), d, to);
+        for (int first = triangles_.y0(cell); first < y1; first += kRowsAtOnce) {
+            const int rows = std::min(kRowsAtOnce, y1 - first);
+            RowSpans of_above;
+            RowSpans of_below;
+            triangles_.measure_rows(cell, first, rows, of_above, of_below);
+            float* row = tile_.sums + (first - tile_.y0 + 1) * tile_.stride - tile_.x0 + 1;
+            for (int k = 0; k < rows; ++k, row += tile_.stride) {
+                if constexpr (kMasked) {
+                    add_masked(masked_above, of_above, above.radiance_x[cell], k, first, row);
+                    add_masked(masked_below, of_below, below.radiance_x[cell], k, first, row);
+                } else {
+                    add_ramp(of_above, above.radiance_x[cell], k, row);
+                    add_ramp(of_below, below.radiance_x[cell], k, row);
+                }
             }
         }
     }
-}
+
+  private:
+    // Adds a row of radiance that changes by `step` per pixel to a row that begins at x = 0.
+    static HWY_INLINE void add_ramp(const RowSpans& spans, float step, int k, float* row) {
+        const Short d;
+        int count = spans.count[k];
+        if (count <= 0) return;
+        float* to = row + spans.begin[k];
+        auto value = hn::MulAdd(hn::Iota(d, 0.0F), hn::Set(d, step), hn::Set(d, spans.radiance[k]));
+        const auto more = hn::Set(d, step * static_cast<float>(kShortLanes));
+        for (; count >= kShortLanes; count -= kShortLanes, to += kShortLanes) {
+            hn::StoreU(hn::Add(hn::LoadU(d, to), value), d, to);
+            value = hn::Add(value, more);
+        }
+        if (count <= 0) return;
+        const auto rest = hn::FirstN(d, static_cast<std::size_t>(count));
+        hn::StoreU(hn::Add(hn::LoadU(d, to), hn::IfThenElseZero(rest, value)), d, to);
+    }
+
+    // The same, through apertures.
+    void add_masked(const MaskedFacet& facet, const RowSpans& spans, float step, int row, int first,
+                    float* to) const {
+        const D d;
+        const float dy = static_cast<float>(first + row) + 0.5F - facet.a_y;
+        to += spans.begin[row];
+        for (int k = 0; k < spans.count[row]; k += kLanes) {
+            const V radiance =
+                hn::MulAdd(hn::Iota(d, static_cast<float>(k)), set(step), set(spans.radiance[row]));
+            const V light = hn::Mul(radiance, light_on(facet, mask_, spans.begin[row] + k, dy));
+            const int left = std::min(kLanes, spans.count[row] - k);
+            const M which = hn::FirstN(d, static_cast<std::size_t>(left));
+            hn::StoreU(hn::Add(load(to + k), hn::IfThenElseZero(which, light)), d, to + k);
+        }
+    }
+
+    MaskedFacet masked_facet(const Triangles& t, int cell) const {
+        const std::ptrdiff_t a = first_ + cell;
+        const std::ptrdiff_t b = a + t.b;
+        const std::ptrdiff_t c = a + mesh_.stride + 1;
+        const float bx = mesh_.x[b] - mesh_.x[a];
+        const float by = mesh_.y[b] - mesh_.y[a];
+        const float cx = mesh_.x[c] - mesh_.x[a];
+        const float cy = mesh_.y[c] - mesh_.y[a];
+        const auto through = [&](float at_a, float at_b, float at_c) {
+            const float to_b = (at_b - at_a) * t.per_area[cell];
+            const float to_c = (at_c - at_a) * t.per_area[cell];
+            return Gradient{at_a, to_b * cy - to_c * by, to_c * bx - to_b * cx};
+        };
+        const auto of = [&](const float* field) { return through(field[a], field[b], field[c]); };
+        MaskedFacet facet;
+        facet.a_x = mesh_.x[a];
+        facet.a_y = mesh_.y[a];
+        facet.u = of(mesh_.u);
+        facet.v = of(mesh_.v);
+        facet.clip = of(mesh_.clip);
+        if (mask_.extra == nullptr) return facet;
+        const auto entrance = [&](std::ptrdiff_t at, float& x, float& y) {
+            const std::ptrdiff_t j = at / mesh_.stride;
+            x = mesh_.entrance_x +
+                static_cast<float>(at - j * mesh_.stride) * mesh_.entrance_step_x;
+            y = mesh_.entrance_y + static_cast<float>(j) * mesh_.entrance_step_y;
+        };
+        float x[3];
+        float y[3];
+        entrance(a, x[0], y[0]);
+        entrance(b, x[1], y[1]);
+        entrance(c, x[2], y[2]);
+        facet.entrance_x = through(x[0], x[1], x[2]);
+        facet.entrance_y = through(y[0], y[1], y[2]);
+        facet.entrance_width = std::sqrt(std::abs(facet.entrance_x.x * facet.entrance_y.y -
+                                                  facet.entrance_x.y * facet.entrance_y.x));
+        return facet;
+    }
+
+    const Mesh& mesh_;
+    const MeshMask& mask_;
+    const MeshTile& tile_;
+    std::ptrdiff_t first_;  // vertex
+    TriangleGroup triangles_;
+};
 
 void draw(const Mesh& mesh, const MeshGroup& group, const MeshMask& mask, const MeshTile& tile) {
-    const std::ptrdiff_t s = mesh.stride;
-    const int last = std::min(group.column + kGroup, mesh.columns - 2);
-    const std::uint8_t* states = mesh.state + static_cast<std::ptrdiff_t>(group.row) * mesh.columns;
-    const auto corner = [&](std::ptrdiff_t k) { return Corner{k, mesh.x[k], mesh.y[k]}; };
-    std::ptrdiff_t at = group.row * s + group.column;
-    Corner upper_left = corner(at);
-    Corner lower_left = corner(at + s);
-    Side left = side_between(upper_left, lower_left);
-    for (int column = group.column; column < last; ++column, ++at) {
-        const Corner upper_right = corner(at + 1);
-        const Corner lower_right = corner(at + s + 1);
-        const Side right = side_between(upper_right, lower_right);
-        const auto weighs = [&](const Corner& c) { return mesh.smooth[c.at] > 0; };
-        const std::uint8_t state = states[column];
-        if ((state == kCellOpen || state == kCellMasked) &&
-            (weighs(upper_left) || weighs(upper_right) || weighs(lower_left) ||
-             weighs(lower_right))) {
-            const Side upper = side_between(upper_left, upper_right);
-            const Side lower = side_between(lower_left, lower_right);
-            const Side diagonal = side_between(upper_left, lower_right);
-            const Triangle above = {upper_left, upper_right, lower_right, upper, right, diagonal};
-            const Triangle below = {upper_left, lower_left, lower_right, left, lower, diagonal};
-            const auto draw_one =
-                state == kCellMasked ? &draw_triangle<true> : &draw_triangle<false>;
-            draw_one(mesh, above, mask, tile);
-            draw_one(mesh, below, mask, tile);
-        }
-        upper_left = upper_right;
-        lower_left = lower_right;
-        left = right;
+    const FacetGroup facets(mesh, group, mask, tile);
+    const int count = std::min(kGroup, mesh.columns - 2 - group.column);
+    const std::uint8_t* states =
+        mesh.state + static_cast<std::ptrdiff_t>(group.row) * mesh.columns + group.column;
+    const float* upper = mesh.smooth + group.row * mesh.stride + group.column;
+    const float* lower = upper + mesh.stride;
+    for (int cell = 0; cell < count; ++cell) {
+        const bool weighs =
+            upper[cell] > 0 || upper[cell + 1] > 0 || lower[cell] > 0 || lower[cell + 1] > 0;
+        if (!weighs) continue;
+        if (states[cell] == kCellOpen) facets.draw<false>(cell);
+        if (states[cell] == kCellMasked) facets.draw<true>(cell);
     }
 }
 

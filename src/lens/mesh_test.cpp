@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lens/mesh_classify.h"
+#include "lens/mesh_divide.h"
 #include "lens/mesh_facets.h"
 #include "lens/mesh_pieces.h"
 #include "lens/mesh_upsample.h"
@@ -49,19 +50,19 @@ class TestMesh {
 
     // The radiance of each pixel of a kSize x kSize picture. Draws it in tiles of some rows.
     std::vector<float> draw(int tile_rows = kSize, int factor = 1) {
-        mesh_classifier().classify(mesh, options);
+        classify(mesh, options);
         Mesh* drawn = &mesh;
         TestMesh fine;
         if (factor > 1) {
             fine.allocate(upsampled(mesh.columns, factor));
             upsample(mesh, factor, fine.mesh);
             options.upsampled = true;
-            mesh_classifier().classify(fine.mesh, options);
+            classify(fine.mesh, options);
             drawn = &fine.mesh;
         }
         std::vector<MeshGroup> groups(
-            static_cast<std::size_t>(2 * drawn->rows * (drawn->columns / kGroup + 1)));
-        groups.resize(static_cast<std::size_t>(mesh_classifier().divide(*drawn, groups.data())));
+            static_cast<std::size_t>(most_groups(drawn->columns, drawn->rows)));
+        groups.resize(static_cast<std::size_t>(divide(*drawn, groups.data())));
         facets = pieces = 0;
         for (const MeshGroup& group : groups) ++(group.pieces_i > 0 ? pieces : facets);
         std::vector<float> picture(static_cast<std::size_t>(kSize * kSize));

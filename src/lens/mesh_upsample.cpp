@@ -108,6 +108,16 @@ void refine_mesh(const Mesh& from, int factor, Mesh& to) {
     refine_field<false>(from, from.u, factor, at, to, to.u, line);
     refine_field<false>(from, from.v, factor, at, to, to.v, line);
     refine_field<false>(from, from.clip, factor, at, to, to.clip, line);
+    // Any share of a lost ray is far above what other rays have, as the smallest weight is 1 / 16.
+    const D d;
+    const V per_part = set(1 / static_cast<float>(factor * factor));
+    for (std::ptrdiff_t k = 0; k < to.stride * to.rows; k += kLanes) {
+        const V power = hn::Max(hn::Mul(load(to.power + k), per_part), hn::Zero(d));
+        hn::StoreU(power, d, to.power + k);
+        const V clip = load(to.clip + k);
+        const M lost = hn::Gt(clip, set(2 * kFarthestClip));
+        hn::StoreU(hn::IfThenElse(lost, set(kLostRay), clip), d, to.clip + k);
+    }
 }
 
 }  // namespace
@@ -120,13 +130,6 @@ HWY_EXPORT(refine_mesh);
 
 void upsample(const Mesh& from, int factor, Mesh& to) {
     HWY_DYNAMIC_DISPATCH(refine_mesh)(from, factor, to);
-    // Any share of a lost ray is far above what other rays have, as the smallest weight is 1 / 16.
-    const std::ptrdiff_t count = to.stride * to.rows;
-    const float per_part = 1 / static_cast<float>(factor * factor);
-    for (std::ptrdiff_t k = 0; k < count; ++k) {
-        to.power[k] = std::max(to.power[k] * per_part, 0.0F);
-        if (to.clip[k] > 2 * kFarthestClip) to.clip[k] = kLostRay;
-    }
     to.entrance_step_x = from.entrance_step_x / static_cast<float>(factor);
     to.entrance_step_y = from.entrance_step_y / static_cast<float>(factor);
     to.entrance_x = from.entrance_x + from.entrance_step_x - to.entrance_step_x;
@@ -136,10 +139,13 @@ void upsample(const Mesh& from, int factor, Mesh& to) {
         std::uint8_t* states = to.state + static_cast<std::ptrdiff_t>(row) * to.columns;
         const std::uint8_t* parents =
             from.state + static_cast<std::ptrdiff_t>(parent_row) * from.columns;
-        for (int column = 0; column < to.columns; ++column) {
-            states[column] =
-                parents[std::clamp((column - 1 + factor) / factor, 0, from.columns - 1)];
+        // The rim, whole cells, the rim.
+        states[0] = parents[0];
+        std::uint8_t* state = states + 1;
+        for (int cell = 1; cell + 2 < from.columns; ++cell) {
+            for (int k = 0; k < factor; ++k) *state++ = parents[cell];
         }
+        state[0] = state[1] = parents[from.columns - 2];
     }
 }
 }  // namespace aureole::lens

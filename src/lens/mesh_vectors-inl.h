@@ -60,15 +60,6 @@ HWY_INLINE V largest_changes(const float* from, std::ptrdiff_t step, std::ptrdif
     return hn::Max(on_side(from), on_side(from + beside));
 }
 
-// The same of one cell.
-HWY_INLINE float largest_change(const float* from, std::ptrdiff_t step, std::ptrdiff_t beside) {
-    const auto on_side = [&](const float* at) {
-        const float bend = at[-step] + at[2 * step] - at[0] - at[step];
-        return 0.25F * std::abs(bend) + std::abs(at[step] - at[0]);
-    };
-    return std::max(on_side(from), on_side(from + beside));
-}
-
 // Into how many pieces a cell's side of this length is divided.
 HWY_INLINE int pieces_for(float length_px, float per_px, float most) {
     return static_cast<int>(std::clamp(std::ceil(per_px * length_px), 1.0F, most));

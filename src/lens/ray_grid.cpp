@@ -31,8 +31,7 @@ SagRange sag_range(const Face& face, double radius) {
     return range;
 }
 
-// Bounds of a quantity in a cell: from its corners, and from its neighbours' too; lost rays are
-// left out.
+// Bounds of a quantity; lost rays are left out.
 struct Range {
     float low = kLostRay, high = -kLostRay;
     void include(float value) {
@@ -42,18 +41,68 @@ struct Range {
     float size() const { return high - low; }
 };
 
-struct CellRange {
-    Range corners, around;
-    void include(float value, bool is_corner) {
-        around.include(value);
-        if (is_corner) corners.include(value);
+// The bounds of a field over each cell of a grid: of its corners, and of its neighbours' too.
+class CellRanges {
+  public:
+    CellRanges(const float* field, const float* clip) {
+        // Along rows, then across.
+        float corner_low[kSide][kSide];
+        float corner_high[kSide][kSide];
+        float around_low[kSide][kSide];
+        float around_high[kSide][kSide];
+        for (int row = 0; row < kSide; ++row) {
+            // With one more at the begin and two at the end.
+            float low[kSide + 3];
+            float high[kSide + 3];
+            low[0] = low[kSide + 1] = low[kSide + 2] = kLostRay;
+            high[0] = high[kSide + 1] = high[kSide + 2] = -kLostRay;
+            for (int k = 0; k < kSide; ++k) {
+                const bool lost = clip[row * kSide + k] >= kLostRay;
+                low[k + 1] = lost ? kLostRay : field[row * kSide + k];
+                high[k + 1] = lost ? -kLostRay : field[row * kSide + k];
+            }
+            for (int k = 0; k < kSide; ++k) {
+                corner_low[row][k] = std::min(low[k + 1], low[k + 2]);
+                corner_high[row][k] = std::max(high[k + 1], high[k + 2]);
+                around_low[row][k] = std::min(corner_low[row][k], std::min(low[k], low[k + 3]));
+                around_high[row][k] = std::max(corner_high[row][k], std::max(high[k], high[k + 3]));
+            }
+        }
+        for (int row = 0; row + 1 < kSide; ++row) {
+            const int before = std::max(row - 1, 0);
+            const int behind = std::min(row + 2, kSide - 1);
+            for (int k = 0; k < kSide; ++k) {
+                corners_low_[row][k] = std::min(corner_low[row][k], corner_low[row + 1][k]);
+                corners_high_[row][k] = std::max(corner_high[row][k], corner_high[row + 1][k]);
+                around_low_[row][k] =
+                    std::min(std::min(around_low[before][k], around_low[row][k]),
+                             std::min(around_low[row + 1][k], around_low[behind][k]));
+                around_high_[row][k] =
+                    std::max(std::max(around_high[before][k], around_high[row][k]),
+                             std::max(around_high[row + 1][k], around_high[behind][k]));
+            }
+        }
+    }
+
+    Range corners(int row, int column) const {
+        return {corners_low_[row][column], corners_high_[row][column]};
     }
     // What the cell may hold: with few and large cells the quantity may turn within one, and its
     // neighbours tell how steeply.
-    Range possible(bool last) const {
-        const float more = last ? 0.5F * corners.size() : 0.75F * around.size();
-        return {corners.low - more, corners.high + more};
+    Range possible(int row, int column, bool last) const {
+        const Range c = corners(row, column);
+        const Range around = {around_low_[row][column], around_high_[row][column]};
+        const float more = last ? 0.5F * c.size() : 0.75F * around.size();
+        return {c.low - more, c.high + more};
     }
+
+  private:
+    static constexpr int kSide = EntranceSearch::kSide;
+
+    float corners_low_[kSide][kSide];
+    float corners_high_[kSide][kSide];
+    float around_low_[kSide][kSide];
+    float around_high_[kSide][kSide];
 };
 
 }  // namespace
@@ -113,9 +162,13 @@ EntranceFound EntranceSearch::possible(const EntranceQuery& query, std::span<con
     float* hardest = fields_.u;
     const auto widest = static_cast<float>(query.widest);
     for (int k = 0; k < kSide * kSide; ++k) {
-        const float r = std::hypot(fields_.u[k], fields_.v[k]) / widest;
+        const float r =
+            std::sqrt(fields_.u[k] * fields_.u[k] + fields_.v[k] * fields_.v[k]) / widest;
         hardest[k] = std::max(fields_.clip[k], r);
     }
+    const CellRanges pass(hardest, fields_.clip);
+    const CellRanges x(fields_.x, fields_.clip);
+    const CellRanges y(fields_.y, fields_.clip);
     const PlaneBox& sensor = query.sensor;
     int first_column = kSide;
     int last_column = -1;
@@ -125,23 +178,12 @@ EntranceFound EntranceSearch::possible(const EntranceQuery& query, std::span<con
     Range lands_y;
     for (int row = 0; row + 1 < kSide; ++row) {
         for (int column = 0; column + 1 < kSide; ++column) {
-            CellRange pass;
-            CellRange x;
-            CellRange y;
-            for (int j = std::max(0, row - 1); j <= std::min(kSide - 1, row + 2); ++j) {
-                for (int i = std::max(0, column - 1); i <= std::min(kSide - 1, column + 2); ++i) {
-                    const int at = j * kSide + i;
-                    if (fields_.clip[at] >= kLostRay) continue;
-                    const bool corner =
-                        (j == row || j == row + 1) && (i - column) / 2 == 0 && i >= column;
-                    pass.include(hardest[at], corner);
-                    x.include(fields_.x[at], corner);
-                    y.include(fields_.y[at], corner);
-                }
+            if (pass.corners(row, column).low >= kLostRay ||
+                pass.possible(row, column, last).low > 1) {
+                continue;
             }
-            if (pass.corners.low >= kLostRay || pass.possible(last).low > 1) continue;
-            const Range in_x = x.possible(last);
-            const Range in_y = y.possible(last);
+            const Range in_x = x.possible(row, column, last);
+            const Range in_y = y.possible(row, column, last);
             if (in_x.high < sensor.x0 || in_x.low > sensor.x1 || in_y.high < sensor.y0 ||
                 in_y.low > sensor.y1) {
                 continue;

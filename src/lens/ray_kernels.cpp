@@ -19,7 +19,9 @@ using M = hn::Mask<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 // Square roots and divisions of one ray wait for each other; so several vectors of rays take each
 // step together.
-constexpr int kTogether = kLanes <= kRayBlock / 2 ? 2 : 1;
+constexpr int kTogether = 4;
+constexpr int kPerRow = std::min(kTogether, kRayBlock / kLanes);
+constexpr int kRowsTogether = kTogether / kPerRow;
 
 V set(float value) { return hn::Set(D(), value); }
 
@@ -211,21 +213,24 @@ HWY_INLINE Rays start(const RayBundle& bundle, int column, int row) {
     return rays;
 }
 
-void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& bundle,
-                 const IrisField& iris, int column, int row, std::size_t at, const RayFields& to) {
+// kPerRow vectors in each of kRows rows.
+template <int kRows>
+bool trace_block(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& bundle,
+                 const IrisField& iris, int column, int row, const RayFields& to) {
+    constexpr int kVectors = kPerRow * kRows;
     const D d;
-    Rays rays[kTogether];
-    V clip2[kTogether];  // squared
-    V other[kTogether];  // distance of the iris at earlier crossings
-    V u[kTogether];
-    V v[kTogether];
-    for (int k = 0; k < kTogether; ++k) {
-        rays[k] = start(bundle, column + k * kLanes, row);
+    Rays rays[kVectors];
+    V clip2[kVectors];  // squared
+    V other[kVectors];  // distance of the iris at earlier crossings
+    V u[kVectors];
+    V v[kVectors];
+    for (int k = 0; k < kVectors; ++k) {
+        rays[k] = start(bundle, column + (k % kPerRow) * kLanes, row + k / kPerRow);
         clip2[k] = other[k] = u[k] = v[k] = hn::Zero(d);
     }
     for (const RayStep& step : way) {
         with_shape(step, [&](auto shape) {
-            for (int k = 0; k < kTogether; ++k) {
+            for (int k = 0; k < kVectors; ++k) {
                 const Hit hit = meet<decltype(shape)::value>(step, rays[k]);
                 const V scale = set(step.per_semi_aperture);
                 const V relative_x = hn::Mul(rays[k].x, scale);
@@ -243,7 +248,11 @@ void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const R
             }
         });
     }
-    for (int k = 0; k < kTogether; ++k, at += static_cast<std::size_t>(kLanes)) {
+    const int stride = ray_stride(bundle.columns);
+    M all = hn::Eq(hn::Zero(d), hn::Zero(d));
+    for (int k = 0; k < kVectors; ++k) {
+        const std::ptrdiff_t at =
+            static_cast<std::ptrdiff_t>(row + k / kPerRow) * stride + column + k % kPerRow * kLanes;
         Rays& r = rays[k];
         M alive = hn::And(r.alive, hn::Gt(r.dz, hn::Zero(d)));
         go(r, hn::Div(hn::Sub(set(sensor_distance_mm), r.z), r.dz));
@@ -253,25 +262,35 @@ void trace_block(std::span<const RayStep> way, float sensor_distance_mm, const R
         alive = hn::And(alive, hn::Lt(hn::MulAdd(u[k], u[k], hn::Mul(v[k], v[k])),
                                       hn::Mul(farthest, farthest)));
         alive = hn::And(alive, hn::Lt(hn::Max(hn::Abs(r.x), hn::Abs(r.y)), farthest));
-        hn::StoreU(hn::IfThenElseZero(alive, r.x), d, to.x + at);
-        hn::StoreU(hn::IfThenElseZero(alive, r.y), d, to.y + at);
+        all = hn::And(all, alive);
+        const V x = hn::IfThenElseZero(alive, r.x);
+        const V y = hn::IfThenElseZero(alive, r.y);
+        hn::StoreU(hn::MulAdd(set(to.scale_x), x, set(to.begin_x)), d, to.x + at);
+        hn::StoreU(hn::MulAdd(set(to.scale_y), y, set(to.begin_y)), d, to.y + at);
         hn::StoreU(hn::IfThenElseZero(alive, u[k]), d, to.u + at);
         hn::StoreU(hn::IfThenElseZero(alive, v[k]), d, to.v + at);
         hn::StoreU(hn::IfThenElse(alive, clip, set(kLostRay)), d, to.clip + at);
     }
+    return !hn::AllTrue(d, all);
 }
 
-void trace(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& rays,
+bool trace(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& rays,
            const IrisField& iris, const RayFields& to) {
     const int stride = ray_stride(rays.columns);
-    for (int row = 0; row < rays.rows; ++row) {
-        for (int column = 0; column < stride; column += kTogether * kLanes) {
-            trace_block(way, sensor_distance_mm, rays, iris, column, row,
-                        static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) +
-                            static_cast<std::size_t>(column),
-                        to);
+    bool lost = false;
+    int row = 0;
+    for (; row + kRowsTogether <= rays.rows; row += kRowsTogether) {
+        for (int column = 0; column < stride; column += kPerRow * kLanes) {
+            lost |=
+                trace_block<kRowsTogether>(way, sensor_distance_mm, rays, iris, column, row, to);
         }
     }
+    for (; row < rays.rows; ++row) {
+        for (int column = 0; column < stride; column += kPerRow * kLanes) {
+            lost |= trace_block<1>(way, sensor_distance_mm, rays, iris, column, row, to);
+        }
+    }
+    return lost;
 }
 
 // Unpolarised light as a real coherency matrix (Born & Wolf 10.9) in the directions e, across the
@@ -335,32 +354,48 @@ HWY_INLINE void polarise(const RayStep& step, const Hit& hit, const Rays& rays, 
     p.ep = hn::Mul(ep, hn::Sqrt(hn::Max(hn::Mul(rs, rp), hn::Zero(d))));
 }
 
-void throughput(std::span<const RayStep> way, const RayBundle& bundle, float* to) {
+// kVectors side by side.
+template <int kVectors>
+void throughput_block(std::span<const RayStep> way, const RayBundle& bundle, int column, int row,
+                      float* to) {
     const D d;
-    const int stride = ray_stride(bundle.columns);
     // Any direction across the light will do.
     const float* direction = bundle.direction;
     const float length = std::sqrt(direction[0] * direction[0] + direction[2] * direction[2]);
-    for (int row = 0; row < bundle.rows; ++row) {
-        for (int column = 0; column < stride; column += kLanes) {
-            Rays rays = start(bundle, column, row);
-            Polarisation p{set(direction[2] / length),
-                           hn::Zero(d),
-                           set(-direction[0] / length),
-                           set(0.5F),
-                           set(0.5F),
-                           hn::Zero(d)};
-            for (const RayStep& step : way) {
-                with_shape(step, [&](auto shape) {
-                    const Hit hit = meet<decltype(shape)::value>(step, rays);
-                    if (step.reflectance) polarise(step, hit, rays, p);
-                    turn(step, hit, rays);
-                });
+    Rays rays[kVectors];
+    Polarisation p[kVectors];
+    for (int k = 0; k < kVectors; ++k) {
+        rays[k] = start(bundle, column + k * kLanes, row);
+        p[k] = {set(direction[2] / length),
+                hn::Zero(d),
+                set(-direction[0] / length),
+                set(0.5F),
+                set(0.5F),
+                hn::Zero(d)};
+    }
+    for (const RayStep& step : way) {
+        with_shape(step, [&](auto shape) {
+            for (int k = 0; k < kVectors; ++k) {
+                const Hit hit = meet<decltype(shape)::value>(step, rays[k]);
+                if (step.reflectance) polarise(step, hit, rays[k], p[k]);
+                turn(step, hit, rays[k]);
             }
-            const M alive = hn::And(rays.alive, hn::Gt(rays.dz, hn::Zero(d)));
-            hn::StoreU(
-                hn::IfThenElseZero(alive, hn::Add(p.ee, p.pp)), d,
-                to + static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) + column);
+        });
+    }
+    for (int k = 0; k < kVectors; ++k) {
+        const M alive = hn::And(rays[k].alive, hn::Gt(rays[k].dz, hn::Zero(d)));
+        hn::StoreU(hn::IfThenElseZero(alive, hn::Add(p[k].ee, p[k].pp)), d, to + k * kLanes);
+    }
+}
+
+void throughput(std::span<const RayStep> way, const RayBundle& bundle, float* to) {
+    const int stride = ray_stride(bundle.columns);
+    for (int row = 0; row < bundle.rows; ++row, to += stride) {
+        for (int column = 0; column < bundle.columns;) {
+            const bool two = column + kLanes < bundle.columns;
+            (two ? throughput_block<2> : throughput_block<1>)(way, bundle, column, row,
+                                                              to + column);
+            column += two ? 2 * kLanes : kLanes;
         }
     }
 }

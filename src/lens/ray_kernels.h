@@ -43,7 +43,7 @@ struct RayBundle {
     float direction[3] = {0, 0, 1};  // unit, z > 0
     float x_mm = 0, y_mm = 0;        // of the first ray
     float step_x_mm = 0, step_y_mm = 0;
-    int columns = 0;  // whole blocks of kRayBlock are traced
+    int columns = 0;  // trace() follows whole blocks of kRayBlock
     int rows = 0;
 };
 
@@ -58,12 +58,13 @@ inline constexpr float kFarthestClip = 1e6F;
 
 // Arrays of rows * ray_stride(columns) floats.
 struct RayFields {
-    float* x = nullptr;  // on the sensor, mm
+    float* x = nullptr;  // on the sensor: begin_x + scale_x * mm
     float* y = nullptr;
     float* u = nullptr;  // at the last crossing of the stop, in radii of it
     float* v = nullptr;
     float* clip = nullptr;  // largest r / semi-aperture of all housings, and distance of the iris
                             // at the stop's other crossings; kLostRay if it never arrives
+    float begin_x = 0, begin_y = 0, scale_x = 1, scale_y = 1;
 };
 
 // What distance() of an iris needs; see iris.h.
@@ -77,8 +78,8 @@ struct IrisField {
 };
 
 struct RayKernels {
-    // Apertures stop no ray.
-    void (*trace)(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& rays,
+    // Apertures stop no ray. Are there any that never arrive?
+    bool (*trace)(std::span<const RayStep> way, float sensor_distance_mm, const RayBundle& rays,
                   const IrisField& iris, const RayFields& to);
     // The share of energy left on arrival, as Tracer::throughput; 0 for lost rays.
     void (*throughput)(std::span<const RayStep> way, const RayBundle& rays, float* to);

@@ -32,7 +32,7 @@ class TracedCanvas {
                       const BlurKernel& kernel, Canvas& canvas);
 
   private:
-    static constexpr int kTileRows = 32;
+    static constexpr int kTileRows = 64;
 
     struct Tile {
         int level = 0, y0 = 0, y1 = 0;

@@ -49,6 +49,7 @@ struct TracedGhosts::Impl {
          std::vector<Bounces> list, const Occluder* occluder)
         : film(a_film),
           side(options.rays_per_side),
+          hybrid(options.method == GhostMethod::kHybrid),
           ghosts(std::move(list)),
           bands(a_lens, ghosts, options.wavelengths),
           mask(an_iris, occluder, options.ghost_texture),
@@ -90,6 +91,7 @@ struct TracedGhosts::Impl {
 
     Film film;
     int side;
+    bool hybrid;
     std::vector<Bounces> ghosts;
     TracedBands bands;
     TracedMask mask;
@@ -214,7 +216,7 @@ TracedGhosts::~TracedGhosts() = default;
 TracedGhosts::TracedGhosts(TracedGhosts&&) noexcept = default;
 
 void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> ghosts,
-                        Canvas& canvas) {
+                        Canvas& canvas, const ProgressPart& progress) {
     Impl& m = *impl_;
     if (!m.tiles) m.tiles.emplace(canvas);
     m.rays = 0;
@@ -228,6 +230,7 @@ void TracedGhosts::draw(const sources::Light& light, std::span<const GhostDraw> 
     std::size_t next = 0;
     int band = 0;
     while (next < ghosts.size()) {
+        progress.reach(static_cast<double>(next) / static_cast<double>(ghosts.size()));
         m.items.clear();
         while (next < ghosts.size() && m.items.size() < m.meshes.size()) {
             const GhostNow& ghost = m.of(ghosts[next]);
@@ -269,7 +272,7 @@ void TracedGhosts::compare(const sources::Light& light, std::span<const MatrixGh
         const int index = static_cast<int>(g);
         m.prepare(light, index, worker);
         comparisons[g] = m.comparison.compare(index, light, m.bands, m.now[g].light, m.mask,
-                                              placements[g], worker);
+                                              m.hybrid ? &placements[g] : nullptr, worker);
     });
 }
 

@@ -10,6 +10,7 @@
 #include "film.h"
 #include "ghost_draw.h"
 #include "matrix_ghosts.h"
+#include "progress_part.h"
 
 namespace aureole::lens {
 
@@ -21,10 +22,13 @@ class TracedGhosts {
     TracedGhosts(TracedGhosts&&) noexcept;
 
     // Traces and draws by several threads, all wavelengths; marks the levels it uses. The same
-    // bits on any number of threads.
-    void draw(const sources::Light& light, std::span<const GhostDraw> ghosts, Canvas& canvas);
+    // bits on any number of threads. Throws Cancelled between batches of meshes only, when some
+    // ghosts are on the canvas.
+    void draw(const sources::Light& light, std::span<const GhostDraw> ghosts, Canvas& canvas,
+              const ProgressPart& progress = {});
 
-    // Of every ghost of the list; `placements` are those of the same light.
+    // Of every ghost of the list; `placements` are those of the same light. Differences are only
+    // found for GhostMethod::kHybrid.
     void compare(const sources::Light& light, std::span<const MatrixGhost> placements,
                  std::span<GhostComparison> comparisons);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lens/mesh_classify.h"
+#include "lens/mesh_divide.h"
 #include "lens/mesh_facets.h"
 #include "lens/mesh_upsample.h"
 
@@ -13,10 +14,6 @@ namespace {
 std::size_t field_floats(int columns, int rows) {
     return static_cast<std::size_t>(ray_stride(columns)) * static_cast<std::size_t>(rows) +
            kMeshPadding;
-}
-
-std::size_t most_groups(int columns, int rows) {
-    return static_cast<std::size_t>(2 * (columns / kGroup + 1) * rows);
 }
 
 // Rays that never arrive still serve as neighbours of cells that do: their positions are continued
@@ -50,48 +47,7 @@ void continue_over_lost(const Mesh& mesh) {
     }
 }
 
-// Throughput where no ray arrives, continued from the two nodes beyond: it falls towards total
-// reflection.
-void continue_throughput(float* values, int columns, int rows, int stride) {
-    constexpr int kRounds = 2;  // cubics reach so far
-    for (int round = 0; round < kRounds; ++round) {
-        for (int j = 0; j < rows; ++j) {
-            for (int i = 0; i < columns; ++i) {
-                float* at = values + j * stride + i;
-                if (*at > 0) continue;
-                float sum = 0;
-                int count = 0;
-                const auto take = [&](bool exists, int step) {
-                    if (!exists || !(at[step] > 0) || !(at[2 * step] > 0)) return;
-                    sum += std::max(0.0F, 2 * at[step] - at[2 * step]);
-                    ++count;
-                };
-                take(i + 2 < columns, 1);
-                take(i >= 2, -1);
-                take(j + 2 < rows, stride);
-                take(j >= 2, -stride);
-                if (count > 0) *at = sum / static_cast<float>(count);
-            }
-        }
-    }
-}
-
 }  // namespace
-
-TracedMesh::SparsePlace::SparsePlace(double index, int every, int nodes) {
-    const double at = std::clamp(index / every, 0.0, static_cast<double>(nodes - 1));
-    const int first = std::min(static_cast<int>(at), nodes - 2);
-    const auto t = static_cast<float>(at - first);
-    const float t2 = t * t;
-    const float t3 = t2 * t;
-    weight[0] = 0.5F * (2 * t2 - t - t3);
-    weight[1] = 0.5F * (3 * t3 - 5 * t2 + 2);
-    weight[2] = 0.5F * (4 * t2 + t - 3 * t3);
-    weight[3] = 0.5F * (t3 - t2);
-    for (int k = 0; k < 4; ++k) node[k] = std::clamp(first + k - 1, 0, nodes - 1);
-}
-
-int TracedMesh::sparse_side(int side) { return (side - 1 + kSparse - 1) / kSparse + 1; }
 
 PlaneBox picture_on_sensor(const Film& film, double margin_px) {
     const auto x_mm = [&](double px) { return (film.axis_x - px) * film.mm_per_px; };
@@ -102,14 +58,14 @@ PlaneBox picture_on_sensor(const Film& film, double margin_px) {
 
 TracedMesh::TracedMesh(int side)
     : side_(side),
-      sparse_side_(sparse_side(side)),
       memory_(bytes(side) / sizeof(float)),
       states_(static_cast<std::size_t>(side * side + kFineSide * kFineSide +
                                        kMaxPatches * kPatchColumns * kPatchRows)),
-      groups_(most_groups(std::max(side, kFineSide), std::max(side, kFineSide)) +
-              kMaxPatches * most_groups(kPatchColumns, kPatchRows)),
+      groups_(static_cast<std::size_t>(
+          most_groups(std::max(side, kFineSide), std::max(side, kFineSide)) +
+          kMaxPatches * most_groups(kPatchColumns, kPatchRows))),
       patches_(kMaxPatches),
-      places_(static_cast<std::size_t>(std::max(side, kPatchColumns))) {
+      throughput_(std::max(side, kPatchColumns)) {
     std::fill(memory_.data(), memory_.data() + memory_.size(), 0.0F);
     float* memory = memory_.data();
     allocate(grid_, side, side, memory);
@@ -121,10 +77,6 @@ TracedMesh::TracedMesh(int side)
     fine_.state = states;
     states += kFineSide * kFineSide;
     memory += kMeshFields * field_floats(kFineSide, kFineSide);
-    sparse_ = memory;
-    memory += field_floats(sparse_side_, sparse_side_);
-    sparse_row_ = memory;
-    memory += field_floats(sparse_side_, 1);
     for (Patch& patch : patches_) {
         allocate(patch.mesh, kPatchColumns, kPatchRows, memory);
         patch.mesh.state = states;
@@ -134,10 +86,8 @@ TracedMesh::TracedMesh(int side)
 }
 
 std::size_t TracedMesh::bytes(int side) {
-    const int sparse = sparse_side(side);
     return sizeof(float) * (kMeshFields * field_floats(side, side) +
                             kMeshFields * field_floats(kFineSide, kFineSide) +
-                            field_floats(sparse, sparse) + field_floats(sparse, 1) +
                             kMaxPatches * kMeshFields * field_floats(kPatchColumns, kPatchRows));
 }
 
@@ -154,16 +104,6 @@ void TracedMesh::allocate(Mesh& mesh, int columns, int rows, float* memory) cons
     }
 }
 
-void TracedMesh::trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept {
-    RayBundle sparse = grid;
-    sparse.columns = sparse.rows = sparse_side_;
-    sparse.step_x_mm *= kSparse;
-    sparse.step_y_mm *= kSparse;
-    ray_kernels().throughput(job.way, sparse, sparse_);
-    rays_ += static_cast<std::size_t>(sparse_side_) * static_cast<std::size_t>(sparse_side_);
-    continue_throughput(sparse_, sparse_side_, sparse_side_, ray_stride(sparse_side_));
-}
-
 // Fills the vertices of a mesh that begins at (i, j) of the grid, `step` cells of it apart.
 void TracedMesh::trace(const MeshJob& job, Mesh& mesh, double i, double j, double step) noexcept {
     RayBundle rays = bundle_;
@@ -177,51 +117,26 @@ void TracedMesh::trace(const MeshJob& job, Mesh& mesh, double i, double j, doubl
     mesh.entrance_y = rays.y_mm;
     mesh.entrance_step_x = rays.step_x_mm;
     mesh.entrance_step_y = rays.step_y_mm;
-    ray_kernels().trace(job.way, job.sensor_distance_mm, rays, job.iris,
-                        {mesh.x, mesh.y, mesh.u, mesh.v, mesh.clip});
-    rays_ += static_cast<std::size_t>(mesh.columns) * static_cast<std::size_t>(mesh.rows);
-
-    // To pixels of the level.
+    // In pixels of the level.
     const Film& film = *job.film;
     const double per_px = 1.0 / (1 << job.level);
     const auto scale = static_cast<float>(per_px / film.mm_per_px);
-    const auto axis_x = static_cast<float>(film.axis_x * per_px);
-    const auto axis_y = static_cast<float>(film.axis_y * per_px);
-    const std::ptrdiff_t count = mesh.stride * mesh.rows;
-    for (std::ptrdiff_t k = 0; k < count; ++k) mesh.x[k] = axis_x - mesh.x[k] * scale;
-    for (std::ptrdiff_t k = 0; k < count; ++k) mesh.y[k] = axis_y + mesh.y[k] * scale;
-    const bool some_lost =
-        std::any_of(mesh.clip, mesh.clip + count, [](float c) { return c >= kLostRay; });
+    const bool some_lost = ray_kernels().trace(job.way, job.sensor_distance_mm, rays, job.iris,
+                                               {.x = mesh.x,
+                                                .y = mesh.y,
+                                                .u = mesh.u,
+                                                .v = mesh.v,
+                                                .clip = mesh.clip,
+                                                .begin_x = static_cast<float>(film.axis_x * per_px),
+                                                .begin_y = static_cast<float>(film.axis_y * per_px),
+                                                .scale_x = -scale,
+                                                .scale_y = scale});
+    rays_ += static_cast<std::size_t>(mesh.columns) * static_cast<std::size_t>(mesh.rows);
     if (some_lost) continue_over_lost(mesh);
 
     const double cell_mm2 = static_cast<double>(rays.step_x_mm) * rays.step_y_mm;
     const auto power = static_cast<float>(job.power_per_mm2 * cell_mm2);
-    interpolate_throughput(mesh, i, j, step, power);
-}
-
-void TracedMesh::interpolate_throughput(Mesh& mesh, double i, double j, double step,
-                                        float scale) noexcept {
-    const int stride = ray_stride(sparse_side_);
-    for (int column = 0; column < mesh.columns; ++column) {
-        places_[static_cast<std::size_t>(column)] =
-            SparsePlace(i + column * step, kSparse, sparse_side_);
-    }
-    for (int row = 0; row < mesh.rows; ++row) {
-        const SparsePlace across(j + row * step, kSparse, sparse_side_);
-        for (int k = 0; k < sparse_side_; ++k) {
-            float sum = 0;
-            for (int n = 0; n < 4; ++n)
-                sum += across.weight[n] * sparse_[across.node[n] * stride + k];
-            sparse_row_[k] = scale * sum;
-        }
-        float* to = mesh.power + row * mesh.stride;
-        for (int column = 0; column < mesh.columns; ++column) {
-            const SparsePlace& along = places_[static_cast<std::size_t>(column)];
-            float sum = 0;
-            for (int n = 0; n < 4; ++n) sum += along.weight[n] * sparse_row_[along.node[n]];
-            to[column] = std::max(0.0F, sum);
-        }
-    }
+    throughput_.interpolate(i, j, step, power, mesh);
 }
 
 // Gives refined cells patches as long as there are any; the others are drawn as they are.
@@ -302,7 +217,6 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     patch_count_ = group_count_ = grid_groups_ = 0;
     bounds_ = {};
     side_ = job.side;
-    sparse_side_ = sparse_side(side_);
     grid_.columns = grid_.rows = side_;
     grid_.stride = ray_stride(side_);
     // One cell on each side is the rim, which is not drawn.
@@ -317,7 +231,7 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     bundle_.y_mm = static_cast<float>(job.box.y0 - step_y);
     bundle_.step_x_mm = static_cast<float>(step_x);
     bundle_.step_y_mm = static_cast<float>(step_y);
-    trace_throughput(job, bundle_);
+    rays_ += throughput_.trace(job.way, bundle_);
     trace(job, grid_, 0, 0, 1);
 
     ClassifyOptions options;
@@ -330,13 +244,13 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     options.y1 = job.y1;
     const auto divide = [&](const Mesh& mesh) {
         const int first = group_count_;
-        const int count = mesh_classifier().divide(mesh, groups_.data() + first);
+        const int count = lens::divide(mesh, groups_.data() + first);
         group_count_ += count;
         add_bounds(std::span(groups_).subspan(static_cast<std::size_t>(first),
                                               static_cast<std::size_t>(count)));
         return count;
     };
-    mesh_classifier().classify(grid_, options);
+    classify(grid_, options);
     refine(job, grid_, 0, 0, 1, 0);
     const int factor = upsampling(side_);
     upsampled_ = factor > 1;
@@ -345,7 +259,7 @@ void TracedMesh::build(const MeshJob& job) noexcept {
         fine_.stride = ray_stride(fine_.columns);
         upsample(grid_, factor, fine_);
         options.upsampled = true;
-        mesh_classifier().classify(fine_, options);
+        classify(fine_, options);
         options.upsampled = false;
     }
     grid_groups_ = divide(upsampled_ ? fine_ : grid_);
@@ -353,7 +267,7 @@ void TracedMesh::build(const MeshJob& job) noexcept {
     for (int k = 0; k < patch_count_; ++k) {
         Patch& patch = patches_[static_cast<std::size_t>(k)];
         patch.first_group = group_count_;
-        mesh_classifier().classify(patch.mesh, options);
+        classify(patch.mesh, options);
         refine(job, patch.mesh, patch.i, patch.j, patch.step, patch.depth);
         patch.group_count = divide(patch.mesh);
     }

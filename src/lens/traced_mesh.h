@@ -10,6 +10,7 @@
 #include "lens/mesh_types.h"
 #include "lens/ray_grid.h"
 #include "lens/ray_kernels.h"
+#include "lens/sparse_throughput.h"
 
 namespace aureole::lens {
 
@@ -52,8 +53,6 @@ class TracedMesh {
     static std::size_t bytes(int side);
 
   private:
-    // Throughput varies slowly: it is traced for every 4th ray, and interpolated by cubics.
-    static constexpr int kSparse = 4;
     // A refined cell is divided into kFiner x kFiner; a patch is a run of up to kRun such cells
     // with a rim, one block of rays wide.
     static constexpr int kFiner = 4;
@@ -66,15 +65,6 @@ class TracedMesh {
     static constexpr int kMaxDepth = 3;
     static_assert(ray_stride(kPatchColumns) == kRayBlock);
 
-    // Where an index of the grid lies between sparse nodes: the four around it, and the weights of
-    // a cubic (Catmull & Rom 1974).
-    struct SparsePlace {
-        int node[4] = {};
-        float weight[4] = {};
-        SparsePlace() = default;
-        SparsePlace(double index, int every, int nodes);
-    };
-
     struct Patch {
         Mesh mesh;
         int first_group = 0, group_count = 0;
@@ -83,11 +73,8 @@ class TracedMesh {
         double i = 0, j = 0, step = 1;
     };
 
-    static int sparse_side(int side);
     void allocate(Mesh& mesh, int columns, int rows, float* memory) const;
     void trace(const MeshJob& job, Mesh& mesh, double i, double j, double step) noexcept;
-    void trace_throughput(const MeshJob& job, const RayBundle& grid) noexcept;
-    void interpolate_throughput(Mesh& mesh, double i, double j, double step, float scale) noexcept;
     void refine(const MeshJob& job, const Mesh& mesh, double i, double j, double step,
                 int depth) noexcept;
     int upsampling(int side) const noexcept;
@@ -96,19 +83,16 @@ class TracedMesh {
                      const MeshTile& tile) const noexcept;
 
     int side_;
-    int sparse_side_;
     Buffer memory_;
     Mesh grid_;
     Mesh fine_;  // the grid upsampled, if that is what is drawn
     bool upsampled_ = false;
     RayBundle bundle_;
-    float* sparse_ = nullptr;
-    float* sparse_row_ = nullptr;  // between rows of it
     std::vector<std::uint8_t> states_;
     std::vector<MeshGroup> groups_;
     int grid_groups_ = 0;
     std::vector<Patch> patches_;
-    std::vector<SparsePlace> places_;  // of columns
+    SparseThroughput throughput_;
     int patch_count_ = 0;
     int group_count_ = 0;
     Bounds bounds_;

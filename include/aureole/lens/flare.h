@@ -133,8 +133,9 @@ class Flare {
     Flare& operator=(Flare&&) noexcept;
 
     // Adds the ghosts of all lights to `out` (3 channels, the view's size). Never NaN. A light that
-    // the lens does not see adds nothing. Not to be run from two threads at once. Reports after
-    // each light; throws Cancelled between two, and `out` is then as it was.
+    // the lens does not see adds nothing. Not to be run from two threads at once. Reports and may
+    // throw Cancelled before each light and, of traced ghosts, after every few of them; `out` is
+    // then as it was, and report() as if no light had been seen.
     void render(std::span<const sources::Light> lights, const ImageView& out,
                 Progress* progress = nullptr);
 
