@@ -53,6 +53,14 @@ void register_all() {
             ->Unit(benchmark::kMillisecond)
             ->UseRealTime();
     }
+    options.method = ibl::FilterMethod::kPrecomputed;
+    for (const int samples : {32, 128}) {
+        options.samples = {samples};
+        const std::string name = "precomputed/" + std::to_string(samples);
+        benchmark::RegisterBenchmark(name.c_str(), prefilter, options)
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime();
+    }
 }
 
 }  // namespace

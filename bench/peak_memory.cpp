@@ -1,4 +1,4 @@
-// Peak resident memory of one job in a process of its own: peak_memory convolution|eye-psf
+// Peak resident memory of one job in a process of its own: peak_memory convolution|eye-psf|ibl
 // prints megabytes (1e6 bytes).
 #include <fmt/core.h>
 #include <sys/resource.h>
@@ -8,6 +8,12 @@
 
 #include "aureole/eye/eye_psf.h"
 #include "aureole/glare/glare.h"
+#include "aureole/ibl/brdf_table.h"
+#include "aureole/ibl/irradiance.h"
+#include "aureole/ibl/lat_long.h"
+#include "aureole/ibl/prefilter.h"
+#include "aureole/ibl/roughness.h"
+#include "aureole/ibl/spherical_harmonics.h"
 #include "aureole/image/view.h"
 
 namespace {
@@ -34,6 +40,20 @@ void eye_psf(const View& view) {
     (void)eye::eye_psf(eye, wave::KernelGrid::square(view, 1025));
 }
 
+// All that `aureole ibl` makes of a lat-long picture of 2048x1024 pixels, which is held whole.
+void environment_maps() {
+    const Image lat_long(2048, 1024, 3);
+    const ibl::CubeMap environment = ibl::cube_from_lat_long(lat_long, 256);
+    ibl::PrefilterOptions options;
+    options.roughness = ibl::level_roughness(ibl::RoughnessMapping::kFilament, 5, 256);
+    ibl::Prefilter prefilter(256, options);
+    ibl::CubeChain chain = prefilter.make_chain();
+    prefilter.run(environment, chain);
+    (void)ibl::irradiance_map(environment);
+    (void)ibl::project_to_sh(environment, 3);
+    const ibl::BrdfTable table(ibl::BrdfTableKind::kGgx);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -43,8 +63,10 @@ int main(int argc, char** argv) {
         convolution(view);
     } else if (job == "eye-psf") {
         eye_psf(view);
+    } else if (job == "ibl") {
+        environment_maps();
     } else {
-        fmt::print(stderr, "usage: peak_memory convolution|eye-psf\n");
+        fmt::print(stderr, "usage: peak_memory convolution|eye-psf|ibl\n");
         return 2;
     }
     rusage usage{};

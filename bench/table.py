@@ -107,7 +107,20 @@ def main():
     row("  placement alone, round iris (us)", times["place/round"], "<= 30",
         f"{times['place/blades']:.0f} us with 8 blades")
 
-    for job, bar in (("convolution", "250"), ("eye-psf", "600")):
+    times = medians(programs / "ibl_bench", options.simd, max(3, options.rounds // 3))
+    row("environment filtered, gather, 256^2, 5 levels, 1 thread (ms)", times["gather/normal"],
+        "<= 60", f"{times['gather/normal'] / times['precomputed/32']:.1f} x precomputed with 32 "
+        f"samples, {times['gather/normal'] / times['precomputed/128']:.2f} x with 128")
+    times = medians(programs / "ibl_sampling_bench", options.simd, max(3, options.rounds // 3),
+                    "reference|fis_32|precomputed_32")
+    for size in ("256", "128"):
+        reference, fis, fast = (times[f"{name}/{size}"] for name in
+                                ("reference_1024", "fis_32", "precomputed_32"))
+        row(f"filtering {size}^2: FIS 32, times faster than the reference", reference / fis,
+            ">= 12", ms(reference, fis))
+        row(f"  precomputed 32, times faster than FIS 32", fis / fast, ">= 1.2", ms(fis, fast))
+
+    for job, bar in (("convolution", "250"), ("eye-psf", "600"), ("ibl", "150")):
         run = subprocess.run([programs / "peak_memory", job], check=True, capture_output=True,
                              text=True)
         row(f"peak memory (MB), {job}", float(run.stdout), f"<= {bar}")

@@ -37,7 +37,7 @@ struct IblCommand {
     nlohmann::ordered_json levels_json(const ibl::CubeMap& environment,
                                        const ibl::CubeChain& chain);
     nlohmann::ordered_json parameters() const;
-    std::string summary(const std::vector<std::string>& files) const;
+    std::string summary(const std::vector<std::string>& files);
 
     Session session;
     EnvironmentOptions input;
@@ -177,13 +177,13 @@ nlohmann::ordered_json IblCommand::parameters() const {
     return json;
 }
 
-std::string IblCommand::summary(const std::vector<std::string>& written) const {
+std::string IblCommand::summary(const std::vector<std::string>& written) {
     std::string text;
     for (const std::string& file : written) text += file + "\n";
     if (!wants_report) return text;
     text += fmt::format("\n{:>5} {:>5} {:>9} {:>10} {:>10} {:>10}\n", "level", "size", "roughness",
                         "rms error", "bias", "largest");
-    for (const auto& level : const_cast<Session&>(session).json()["levels"]) {
+    for (const auto& level : session.json()["levels"]) {
         text += fmt::format("{:>5} {:>5} {:>9.3f}", level["level"].get<int>(),
                             level["size"].get<int>(), level["roughness"].get<double>());
         if (level.contains("error")) {

@@ -42,8 +42,7 @@ struct Draw {
 };
 
 // Systematic sampling: one random offset, then even steps through the running sum of chances.
-std::vector<Draw> draw_texels(const std::vector<double>& luminance, int count,
-                              std::uint64_t seed) {
+std::vector<Draw> draw_texels(const std::vector<double>& luminance, int count, std::uint64_t seed) {
     const std::size_t all = luminance.size();
     std::vector<Draw> draws;
     if (static_cast<std::size_t>(count) >= all) {
@@ -96,8 +95,8 @@ FilterError measure_filter_error(const ExactFilter& exact, const CubeMap& level,
             difference[first + k] = luminance[i] - color::luminance(truth);
         });
         if (progress == nullptr) continue;
-        progress->report("measure", static_cast<double>(first + count) /
-                                        static_cast<double>(draws.size()));
+        progress->report("measure",
+                         static_cast<double>(first + count) / static_cast<double>(draws.size()));
         if (progress->cancelled()) throw Cancelled();
     }
     FilterError error;

@@ -59,8 +59,7 @@ TEST(FilterError, SampleAgreesWithAllTexels) {
         float& value = level.stacked().plane(0)[i];
         value += 1e-3F * value;
     }
-    const double all =
-        measure_filter_error(exact, level, 0.0625, {.texels = 6 * 32 * 32}).rms;
+    const double all = measure_filter_error(exact, level, 0.0625, {.texels = 6 * 32 * 32}).rms;
     double mean_square = 0;
     constexpr int kRuns = 8;
     for (int seed = 1; seed <= kRuns; ++seed) {
