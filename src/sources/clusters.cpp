@@ -1,0 +1,188 @@
+#include "aureole/sources/clusters.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+
+#include "aureole/base/error.h"
+#include "aureole/base/parallel.h"
+#include "sources/cluster_cell.h"
+
+namespace aureole::sources {
+namespace {
+
+void check(const ConstImageView& light, const ClusterOptions& options) {
+    if (light.data == nullptr || light.width < 1 || light.height < 1) {
+        throw InvalidArgument("picture", fmt::format("{}x{}", light.width, light.height),
+                              "must have pixels");
+    }
+    if (light.channels != 1 && light.channels != 3) {
+        throw InvalidArgument("channels of the picture", fmt::format("{}", light.channels),
+                              "must be 3, or 1 for grey");
+    }
+    if (!(options.error >= 0 && options.error <= 1)) {
+        throw InvalidArgument("error of clusters", fmt::format("{}", options.error),
+                              "must be in [0, 1]");
+    }
+    if (!(options.color_spread >= 0)) {
+        throw InvalidArgument("colour spread of clusters", fmt::format("{}", options.color_spread),
+                              "must be at least 0");
+    }
+    if (options.max_side < 1 || options.max_side > kMaxClusterSide ||
+        !std::has_single_bit(static_cast<unsigned>(options.max_side))) {
+        throw InvalidArgument("side of clusters", fmt::format("{}", options.max_side),
+                              fmt::format("must be a power of two up to {}", kMaxClusterSide));
+    }
+    if (!(options.dim_limit >= 0)) {
+        throw InvalidArgument("dim limit", fmt::format("{}", options.dim_limit),
+                              "must be at least 0");
+    }
+}
+
+// The clusters of one block of max_side x max_side pixels.
+class BlockSearch {
+  public:
+    BlockSearch(const KernelRoughness& roughness, const ClusterOptions& options)
+        : roughness_(roughness), options_(options) {}
+
+    // False if no pixel is bright.
+    bool load(const ConstImageView& light, const float* weights, int x0, int y0) {
+        x0_ = x0;
+        y0_ = y0;
+        block_.channels = light.channels;
+        bool any = false;
+        for (int y = 0; y < options_.max_side; ++y) {
+            for (int x = 0; x < options_.max_side; ++x) {
+                any = load_pixel(light, weights, x, y) || any;
+            }
+        }
+        return any;
+    }
+
+    double energy_left() const { return left_; }
+
+    void search(Clusters& found) { search({0, 0, options_.max_side}, found); }
+
+  private:
+    bool load_pixel(const ConstImageView& light, const float* weights, int x, int y) {
+        const std::size_t i = BlockEnergies::index(x, y);
+        block_.bright[i] = false;
+        if (x0_ + x >= light.width || y0_ + y >= light.height) return false;
+        const float weight = weights == nullptr
+                                 ? 1.0F
+                                 : weights[static_cast<std::size_t>(y0_ + y) *
+                                               static_cast<std::size_t>(light.width) +
+                                           static_cast<std::size_t>(x0_ + x)];
+        bool bright = false;
+        double amount = 0;
+        for (int c = 0; c < light.channels; ++c) {
+            const float value = light.at(x0_ + x, y0_ + y, c);
+            bright = bright || std::abs(value) > options_.dim_limit;
+            block_.energy[static_cast<std::size_t>(c)][i] = value * weight;
+            amount += std::abs(static_cast<double>(value) * static_cast<double>(weight));
+        }
+        block_.bright[i] = bright;
+        if (!bright) left_ += amount;
+        return bright;
+    }
+
+    void search(const Cell& cell, Clusters& found) {
+        const CellSums sums = sum_cell(block_, cell);
+        if (sums.bright_pixels == 0) return;
+        const bool try_cell =
+            sums.bright_pixels > 1 && (options_.tree || cell.side == options_.max_side);
+        if (sums.bright_pixels == 1 && (cell.side == 1 || bounded())) {
+            emit(cell, sums, Cluster::Shape::kPoint, 0, found);
+        } else if (!try_cell || !emit_cell(cell, sums, found)) {
+            const int half = cell.side / 2;
+            for (const auto& [dx, dy] : {std::pair{0, 0}, {half, 0}, {0, half}, {half, half}}) {
+                search({cell.x + dx, cell.y + dy, half}, found);
+            }
+        }
+    }
+
+    bool bounded() const { return options_.criterion == ClusterOptions::Criterion::kBoundedError; }
+
+    // Emits the whole cell as one cluster, if it may be one.
+    bool emit_cell(const Cell& cell, const CellSums& sums, Clusters& found) const {
+        if (!bounded()) {
+            if (sums.bright_pixels < cell.side * cell.side ||
+                color_spread(block_, cell, sums) > options_.color_spread) {
+                return false;
+            }
+            emit(cell, sums, Cluster::Shape::kCell, 0, found);
+            return true;
+        }
+        const double most = options_.error * sums.amount;
+        const double as_cell = cell_bound(block_, cell, sums, roughness_);
+        const double as_point = point_bound(block_, cell, sums, roughness_);
+        if (std::min(as_cell, as_point) > most) return false;
+        if (as_cell < as_point) {
+            emit(cell, sums, Cluster::Shape::kCell, as_cell, found);
+        } else {
+            emit(cell, sums, Cluster::Shape::kPoint, as_point, found);
+        }
+        return true;
+    }
+
+    void emit(const Cell& cell, const CellSums& sums, Cluster::Shape shape, double bound,
+              Clusters& found) const {
+        Cluster cluster;
+        cluster.shape = shape;
+        cluster.x = x0_ + cell.x;
+        cluster.y = y0_ + cell.y;
+        cluster.side = cell.side;
+        const bool point = shape == Cluster::Shape::kPoint;
+        cluster.centroid_x = point ? x0_ + sums.x : cluster.x + 0.5 * cell.side;
+        cluster.centroid_y = point ? y0_ + sums.y : cluster.y + 0.5 * cell.side;
+        for (std::size_t c = 0; c < 3; ++c) {
+            cluster.energy[c] = static_cast<float>(sums.energy[c]);
+        }
+        cluster.error_bound = bound;
+        found.clusters.push_back(cluster);
+        found.bright_pixels += static_cast<std::size_t>(sums.bright_pixels);
+        found.energy += sums.amount;
+        found.error_bound += bound;
+    }
+
+    const KernelRoughness& roughness_;
+    const ClusterOptions& options_;
+    BlockEnergies block_;
+    int x0_ = 0;
+    int y0_ = 0;
+    double left_ = 0;
+};
+
+}  // namespace
+
+Clusters find_clusters(const ConstImageView& light, const float* weights,
+                       const KernelRoughness& roughness, const ClusterOptions& options) {
+    check(light, options);
+    const int side = options.max_side;
+    const int columns = (light.width + side - 1) / side;
+    const int rows = (light.height + side - 1) / side;
+    std::vector<Clusters> found(static_cast<std::size_t>(rows));
+    parallel_for(found.size(), [&](std::size_t row, int) {
+        const auto search = std::make_unique<BlockSearch>(roughness, options);
+        for (int column = 0; column < columns; ++column) {
+            if (search->load(light, weights, column * side, static_cast<int>(row) * side)) {
+                search->search(found[row]);
+            }
+        }
+        found[row].energy_left = search->energy_left();
+    });
+    Clusters all;
+    for (const Clusters& row : found) {
+        all.clusters.insert(all.clusters.end(), row.clusters.begin(), row.clusters.end());
+        all.bright_pixels += row.bright_pixels;
+        all.energy += row.energy;
+        all.energy_left += row.energy_left;
+        all.error_bound += row.error_bound;
+    }
+    return all;
+}
+
+}  // namespace aureole::sources
