@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <utility>
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
@@ -117,7 +119,8 @@ class BlockSearch {
             return true;
         }
         const double most = options_.error * sums.amount;
-        const double as_cell = cell_bound(block_, cell, sums, roughness_);
+        const double as_cell = options_.cells ? cell_bound(block_, cell, sums, roughness_)
+                                              : std::numeric_limits<double>::infinity();
         const double as_point = point_bound(block_, cell, sums, roughness_);
         if (std::min(as_cell, as_point) > most) return false;
         if (as_cell < as_point) {

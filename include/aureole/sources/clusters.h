@@ -65,6 +65,8 @@ struct ClusterOptions {
     int max_side = 16;
     // false: cells of max_side or single pixels only, the paper's static grid.
     bool tree = true;
+    // kBoundedError: whether Shape::kCell may be chosen, which needs a kernel for each side.
+    bool cells = true;
     // Pixels none of whose channels exceeds this are not bright: they are in no cluster. >= 0.
     float dim_limit = 0;
 };
