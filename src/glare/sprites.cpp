@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
+#include "aureole/sources/brightness.h"
 #include "glare/sprite_crop.h"
 #include "glare/sprite_drawing.h"
 #include "glare/sprite_kernel.h"
@@ -179,19 +181,49 @@ struct Sprites::Impl {
         std::fill_n(planes, 3 * kPlane, 0.0F);
         if (core_radius > 0) draw_cores(light, weights, dim_limit, tile);
         draw_sprites(sprites.data(), tiles.order(index), tiles.count(index), tile);
-        for (int c = 0; c < channels; ++c) {
-            for (int y = 0; y < tile.height; ++y) {
-                const float* row = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
+        for (int y = 0; y < tile.height; ++y) {
+            for (int c = 0; c < channels; ++c) finish_row(out, weights, tile, y, c);
+        }
+        keep_dim_light(light, out, dim_limit, tile);
+    }
+
+    // From energy back to the picture's values.
+    void finish_row(const ImageView& out, const float* weights, const SpriteTile& tile, int y,
+                    int c) const {
+        const float* row = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
+        float* to = &out.at(tile.x, tile.y + y, c);
+        if (weights == nullptr) {
+            for (int x = 0; x < tile.width; ++x) to[x * out.pixel_stride] = row[x];
+            return;
+        }
+        const float* weight = weights + pixel(tile.x, tile.y + y);
+        for (int x = 0; x < tile.width; ++x) to[x * out.pixel_stride] = row[x] / weight[x];
+    }
+
+    // Light that is too dim to be drawn stays where it is.
+    void keep_dim_light(const ConstImageView& light, const ImageView& out, float dim_limit,
+                        const SpriteTile& tile) const {
+        std::array<float, SpriteTiles::kWidth> largest;
+        for (int y = tile.y; y < tile.y + tile.height; ++y) {
+            sources::largest_channel_row(part(light, tile.x, tile.width), y, largest.data());
+            for (int c = 0; c < channels; ++c) {
+                const float* from = light.data + light.offset(tile.x, y, c);
+                float* to = &out.at(tile.x, y, c);
                 for (int x = 0; x < tile.width; ++x) {
-                    const float sum = weights == nullptr
-                                          ? row[x]
-                                          : row[x] / weights[pixel(tile.x + x, tile.y + y)];
-                    const bool stays = !is_bright(light, tile.x + x, tile.y + y, dim_limit);
-                    out.at(tile.x + x, tile.y + y, c) =
-                        stays ? sum + light.at(tile.x + x, tile.y + y, c) : sum;
+                    const float dim = largest[static_cast<std::size_t>(x)] > dim_limit
+                                          ? 0.0F
+                                          : from[x * light.pixel_stride];
+                    to[x * out.pixel_stride] += dim;
                 }
             }
         }
+    }
+
+    static ConstImageView part(const ConstImageView& view, int x, int width) {
+        ConstImageView columns = view;
+        columns.data += view.offset(x, 0, 0);
+        columns.width = width;
+        return columns;
     }
 
     // The cores of all bright pixels that reach into the tile.
@@ -200,9 +232,13 @@ struct Sprites::Impl {
         constexpr std::uint32_t kFirst = 0;
         const int end_y = std::min(height, tile.y + tile.height + core_radius);
         const int end_x = std::min(width, tile.x + tile.width + core_radius);
+        const int first_x = std::max(0, tile.x - core_radius);
+        std::array<float, SpriteTiles::kWidth + 2 * kCoreRadius> largest;
         for (int y = std::max(0, tile.y - core_radius); y < end_y; ++y) {
-            for (int x = std::max(0, tile.x - core_radius); x < end_x; ++x) {
-                if (!is_bright(light, x, y, dim_limit)) continue;
+            sources::largest_channel_row(part(light, first_x, end_x - first_x), y, largest.data());
+            if (!sources::any_above(largest.data(), end_x - first_x, dim_limit)) continue;
+            for (int x = first_x; x < end_x; ++x) {
+                if (!(largest[static_cast<std::size_t>(x - first_x)] > dim_limit)) continue;
                 const float weight = weights == nullptr ? 1.0F : weights[pixel(x, y)];
                 const Sprite sprite = core_sprite(light, x, y, weight);
                 draw_sprites(&sprite, &kFirst, 1, tile);
@@ -228,13 +264,6 @@ struct Sprites::Impl {
         sprite.top = std::max(0, y - core_radius);
         sprite.bottom = std::min(height, y + core_radius + 1);
         return sprite;
-    }
-
-    bool is_bright(const ConstImageView& light, int x, int y, float dim_limit) const {
-        for (int c = 0; c < channels; ++c) {
-            if (std::abs(light.at(x, y, c)) > dim_limit) return true;
-        }
-        return false;
     }
 
     std::size_t pixel(int x, int y) const {

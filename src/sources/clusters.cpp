@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -11,6 +12,7 @@
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
+#include "aureole/sources/brightness.h"
 #include "sources/cluster_cell.h"
 
 namespace aureole::sources {
@@ -50,45 +52,34 @@ class BlockSearch {
     BlockSearch(const KernelRoughness& roughness, const ClusterOptions& options)
         : roughness_(roughness), options_(options) {}
 
-    // False if no pixel is bright.
-    bool load(const ConstImageView& light, const float* weights, int x0, int y0) {
+    void load(const ConstImageView& light, const float* weights, int x0, int y0) {
         x0_ = x0;
         y0_ = y0;
         block_.channels = light.channels;
-        bool any = false;
         for (int y = 0; y < options_.max_side; ++y) {
-            for (int x = 0; x < options_.max_side; ++x) {
-                any = load_pixel(light, weights, x, y) || any;
-            }
+            for (int x = 0; x < options_.max_side; ++x) load_pixel(light, weights, x, y);
         }
-        return any;
     }
-
-    double energy_left() const { return left_; }
 
     void search(Clusters& found) { search({0, 0, options_.max_side}, found); }
 
   private:
-    bool load_pixel(const ConstImageView& light, const float* weights, int x, int y) {
+    void load_pixel(const ConstImageView& light, const float* weights, int x, int y) {
         const std::size_t i = BlockEnergies::index(x, y);
         block_.bright[i] = false;
-        if (x0_ + x >= light.width || y0_ + y >= light.height) return false;
+        if (x0_ + x >= light.width || y0_ + y >= light.height) return;
         const float weight = weights == nullptr
                                  ? 1.0F
                                  : weights[static_cast<std::size_t>(y0_ + y) *
                                                static_cast<std::size_t>(light.width) +
                                            static_cast<std::size_t>(x0_ + x)];
         bool bright = false;
-        double amount = 0;
         for (int c = 0; c < light.channels; ++c) {
             const float value = light.at(x0_ + x, y0_ + y, c);
             bright = bright || std::abs(value) > options_.dim_limit;
             block_.energy[static_cast<std::size_t>(c)][i] = value * weight;
-            amount += std::abs(static_cast<double>(value) * static_cast<double>(weight));
         }
         block_.bright[i] = bright;
-        if (!bright) left_ += amount;
-        return bright;
     }
 
     void search(const Cell& cell, Clusters& found) {
@@ -156,8 +147,45 @@ class BlockSearch {
     BlockEnergies block_;
     int x0_ = 0;
     int y0_ = 0;
-    double left_ = 0;
 };
+
+// Which blocks of the strip of max_side rows from y0 on have bright pixels: most have none.
+std::vector<char> bright_blocks(const ConstImageView& light, int y0,
+                                const ClusterOptions& options) {
+    const int side = options.max_side;
+    std::vector<char> bright(static_cast<std::size_t>((light.width + side - 1) / side), 0);
+    std::vector<float> largest(static_cast<std::size_t>(light.width));
+    for (int y = y0; y < std::min(light.height, y0 + side); ++y) {
+        largest_channel_row(light, y, largest.data());
+        if (!any_above(largest.data(), light.width, options.dim_limit)) continue;
+        for (std::size_t block = 0; block < bright.size(); ++block) {
+            const int x = static_cast<int>(block) * side;
+            if (any_above(largest.data() + x, std::min(side, light.width - x), options.dim_limit)) {
+                bright[block] = 1;
+            }
+        }
+    }
+    return bright;
+}
+
+// Sum of |light| * weight over the channels of rows [first, end).
+double strip_energy(const ConstImageView& light, const float* weights, int first, int end) {
+    std::array<double, 4> sums = {};  // independent, so that additions overlap
+    for (int y = first; y < end; ++y) {
+        const float* row = weights == nullptr ? nullptr
+                                              : weights + static_cast<std::size_t>(y) *
+                                                              static_cast<std::size_t>(light.width);
+        for (int c = 0; c < light.channels; ++c) {
+            const float* values = light.data + light.offset(0, y, c);
+            for (int x = 0; x < light.width; ++x) {
+                const double value = std::abs(static_cast<double>(values[x * light.pixel_stride]));
+                sums[static_cast<std::size_t>(x) % 4] +=
+                    row == nullptr ? value : value * static_cast<double>(row[x]);
+            }
+        }
+    }
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
 
 }  // namespace
 
@@ -169,13 +197,16 @@ Clusters find_clusters(const ConstImageView& light, const float* weights,
     const int rows = (light.height + side - 1) / side;
     std::vector<Clusters> found(static_cast<std::size_t>(rows));
     parallel_for(found.size(), [&](std::size_t row, int) {
+        const int y0 = static_cast<int>(row) * side;
+        const std::vector<char> bright = bright_blocks(light, y0, options);
         const auto search = std::make_unique<BlockSearch>(roughness, options);
         for (int column = 0; column < columns; ++column) {
-            if (search->load(light, weights, column * side, static_cast<int>(row) * side)) {
-                search->search(found[row]);
-            }
+            if (bright[static_cast<std::size_t>(column)] == 0) continue;
+            search->load(light, weights, column * side, y0);
+            search->search(found[row]);
         }
-        found[row].energy_left = search->energy_left();
+        found[row].energy_left =
+            strip_energy(light, weights, y0, std::min(light.height, y0 + side)) - found[row].energy;
     });
     Clusters all;
     for (const Clusters& row : found) {

@@ -9,6 +9,7 @@
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
+#include "aureole/sources/brightness.h"
 #include "aureole/sources/clusters.h"
 
 namespace aureole::sources {
@@ -26,22 +27,16 @@ float lower_edge(std::size_t bin) {
 
 using Histogram = std::array<double, kBins>;
 
-void add_row(const ConstImageView& light, const float* weights, int y, Histogram& histogram) {
-    for (int x = 0; x < light.width; ++x) {
-        float largest = 0;
-        double sum = 0;
-        for (int c = 0; c < light.channels; ++c) {
-            const float value = std::abs(light.at(x, y, c));
-            largest = std::max(largest, value);
-            sum += static_cast<double>(value);
-        }
-        if (weights != nullptr) {
-            sum *= static_cast<double>(
-                weights[static_cast<std::size_t>(y) * static_cast<std::size_t>(light.width) +
-                        static_cast<std::size_t>(x)]);
-        }
-        histogram[bin_of(largest)] += sum;
+// Sums of |light| over channels, times weight.
+void energy_row(const ConstImageView& light, const float* weights, int y, float* out) {
+    for (int x = 0; x < light.width; ++x) out[x] = std::abs(light.at(x, y, 0));
+    for (int c = 1; c < light.channels; ++c) {
+        for (int x = 0; x < light.width; ++x) out[x] += std::abs(light.at(x, y, c));
     }
+    if (weights == nullptr) return;
+    const float* row =
+        weights + static_cast<std::size_t>(y) * static_cast<std::size_t>(light.width);
+    for (int x = 0; x < light.width; ++x) out[x] *= row[x];
 }
 
 }  // namespace
@@ -53,10 +48,19 @@ float dim_limit_for(const ConstImageView& light, const float* weights, double sh
     const int parts = (light.height + kRowsPerPart - 1) / kRowsPerPart;
     std::vector<Histogram> histograms(static_cast<std::size_t>(parts));
     parallel_for(histograms.size(), [&](std::size_t part, int) {
-        histograms[part].fill(0);
+        Histogram& histogram = histograms[part];
+        histogram.fill(0);
+        std::vector<float> largest(static_cast<std::size_t>(light.width));
+        std::vector<float> energy(largest.size());
         const int first = static_cast<int>(part) * kRowsPerPart;
         const int end = std::min(light.height, first + kRowsPerPart);
-        for (int y = first; y < end; ++y) add_row(light, weights, y, histograms[part]);
+        for (int y = first; y < end; ++y) {
+            largest_channel_row(light, y, largest.data());
+            energy_row(light, weights, y, energy.data());
+            for (std::size_t x = 0; x < largest.size(); ++x) {
+                histogram[bin_of(largest[x])] += static_cast<double>(energy[x]);
+            }
+        }
     });
     std::vector<double> bins(kBins, 0.0);
     double total = 0;
