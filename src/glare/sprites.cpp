@@ -5,29 +5,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <tuple>
-#include <utility>
+#include <vector>
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "aureole/sources/brightness.h"
+#include "glare/far_kernel.h"
 #include "glare/sprite_crop.h"
 #include "glare/sprite_drawing.h"
 #include "glare/sprite_kernel.h"
+#include "glare/sprite_layer.h"
 #include "glare/sprite_tiles.h"
 
 namespace aureole::glare {
 namespace {
 
+// Of the error asked for. Of the clusters' share each layer has half if there are two, and the far
+// one pays for its raster with its own.
 constexpr double kShareOfClusters = 0.5;
+constexpr double kShareOfFarRaster = 0.125;
 constexpr double kShareOfCrop = 0.25;
 // Light that stays where it is counts twice: where it should have gone, and where it still is.
 constexpr double kShareOfDimLight = 0.125;
 
 constexpr int kCoreRadius = 8;
 constexpr int kLargestCellKernel = 1025;
+constexpr int kFarClusterSide = 64;
+constexpr int kFarMargin = 1;  // nodes beyond the picture's edge, to interpolate from
 
 void check(int width, int height, int channels, const ConstImageView& kernel,
            const SpriteOptions& options) {
@@ -71,32 +76,39 @@ struct Sprites::Impl {
           height(h),
           channels(c),
           kernel_channels(kernel.channels),
-          centre_x(kernel.width / 2),
-          centre_y(kernel.height / 2),
           options(o),
-          core_radius(core_radius_for(kernel, o)),
-          tiles(w, h),
           scratch(static_cast<std::size_t>(max_workers())) {
+        std::optional<FarKernel> split;
+        if (bounded()) split = find_far_kernel(kernel, kShareOfFarRaster * options.error);
+        if (split) {
+            far.emplace(w, h, c, split->scale, kFarMargin, split->coarse, 1);
+            far_roughness = split->roughness;
+            far_error = split->error;
+            far_canvas = Image((w + split->scale - 1) / split->scale + 2 * kFarMargin,
+                               (h + split->scale - 1) / split->scale + 2 * kFarMargin, c);
+        }
+        prepare_near(split ? split->near.view() : kernel);
+        for (Buffer& buffer : scratch) buffer = Buffer(3 * kTilePlane);
+    }
+
+    bool bounded() const {
+        return options.clusters.criterion == sources::ClusterOptions::Criterion::kBoundedError;
+    }
+
+    void prepare_near(const ConstImageView& kernel) {
+        core_radius = core_radius_for(kernel, options);
         const SplitKernel split = split_kernel(kernel, core_radius);
-        profile.emplace(split.smooth);
-        roughness = sources::roughness_of(split.smooth);
         if (core_radius > 0) core = PaddedKernel(split.core);
-        smooth.emplace(1, PaddedKernel(split.smooth));
+        roughness = sources::roughness_of(split.smooth);
         options.clusters.cells = std::max(kernel.width, kernel.height) <= kLargestCellKernel;
-        if (options.clusters.cells) {
-            for (int side = 2; side <= options.clusters.max_side; side *= 2) {
-                smooth.emplace(side, PaddedKernel(cell_kernel(split.smooth, side)));
-            }
-        }
-        for (Buffer& buffer : scratch) {
-            buffer =
-                Buffer(static_cast<std::size_t>(SpriteTiles::kWidth * SpriteTiles::kHeight) * 3);
-        }
+        near.emplace(width, height, channels, 1, 0, split.smooth,
+                     options.clusters.cells ? options.clusters.max_side : 1);
     }
 
     SpriteReport apply(const ConstImageView& light, const ImageView& out, const float* weights) {
         sources::ClusterOptions cluster_options = options.clusters;
-        cluster_options.error = kShareOfClusters * options.error;
+        const double clusters_share = kShareOfClusters * options.error / (far ? 2 : 1);
+        cluster_options.error = clusters_share;
         if (!(cluster_options.dim_limit > 0)) {
             cluster_options.dim_limit =
                 sources::dim_limit_for(light, weights, kShareOfDimLight * options.error);
@@ -108,79 +120,107 @@ struct Sprites::Impl {
         report.sprites = found.clusters.size();
         report.energy = found.energy + found.energy_left;
         report.energy_left = found.energy_left;
-        make_sprites(found.clusters, report);
-        report.error_bound = found.error_bound + report.energy_cut + 2 * report.energy_left;
-        tiles.sort(sprites);
-        parallel_for(tiles.size(), [&](std::size_t i, int worker) {
+        report.error_bound = found.error_bound + 2 * report.energy_left;
+        const double most_lost = kShareOfCrop * options.error * report.energy / (far ? 2 : 1);
+        add(near->make(found.clusters, crop_level(found.clusters, near->profile(), most_lost)), 1,
+            report);
+        if (far) {
+            cluster_options.cells = false;
+            cluster_options.max_side = kFarClusterSide;
+            cluster_options.error = clusters_share - far_error;
+            const sources::Clusters groups =
+                sources::find_clusters(light, weights, far_roughness, cluster_options);
+            report.far_sprites = groups.clusters.size();
+            report.error_bound += groups.error_bound + far_error * found.energy;
+            const double pixel_area = far->scale() * far->scale();
+            add(far->make(groups.clusters,
+                          crop_level(groups.clusters, far->profile(), most_lost / pixel_area)),
+                pixel_area, report);
+            draw_far();
+        }
+        parallel_for(near->tiles().size(), [&](std::size_t i, int worker) {
             draw_tile(light, out, weights, cluster_options.dim_limit, i,
                       scratch[static_cast<std::size_t>(worker)].data());
         });
         return report;
     }
 
-    void make_sprites(const std::vector<sources::Cluster>& clusters, SpriteReport& report) {
-        const double most_lost = kShareOfCrop * options.error * report.energy;
-        const double level = crop_level(clusters, *profile, most_lost);
-        sprites.clear();
-        for (const sources::Cluster& cluster : clusters) {
-            const int radius = crop_radius(cluster, *profile, level);
-            report.energy_cut += energy_beyond(cluster, *profile, radius);
-            sprites.push_back(sprite_of(cluster, radius));
-            const Sprite& s = sprites.back();
-            report.pixels_drawn += std::max(0.0, static_cast<double>(s.right - s.left)) *
-                                   std::max(0, s.bottom - s.top);
+    // `pixel_area`: how many pixels of the picture one of the layer stands for.
+    static void add(const SpriteLayer::Made& made, double pixel_area, SpriteReport& report) {
+        const double cut = made.energy_cut * pixel_area;
+        report.energy_cut += cut;
+        report.error_bound += cut;
+        report.pixels_drawn += made.pixels_drawn;
+    }
+
+    void draw_far() {
+        parallel_for(far->tiles().size(), [&](std::size_t i, int worker) {
+            const SpriteTile tile =
+                cleared_tile(*far, i, scratch[static_cast<std::size_t>(worker)].data());
+            far->draw(i, tile);
+            for (int c = 0; c < channels; ++c) {
+                const float* plane = tile.planes[static_cast<std::size_t>(c)];
+                for (int y = 0; y < tile.height; ++y) {
+                    std::copy_n(plane + y * tile.stride, tile.width,
+                                far_canvas.row(tile.y + y, c) + tile.x);
+                }
+            }
+        });
+    }
+
+    // Tile `index` in three planes of scratch memory, all 0.
+    SpriteTile cleared_tile(const SpriteLayer& layer, std::size_t index, float* planes) const {
+        SpriteTile tile = layer.tiles().tile(index);
+        tile.channels = channels;
+        tile.stride = SpriteTiles::kWidth;
+        for (std::size_t c = 0; c < 3; ++c) tile.planes[c] = planes + c * kTilePlane;
+        std::fill_n(planes, 3 * kTilePlane, 0.0F);
+        return tile;
+    }
+
+    // The far layer between its nodes, added to a tile of the picture.
+    void add_far(const SpriteTile& tile) const {
+        const int scale = far->scale();
+        std::vector<float> nodes(static_cast<std::size_t>(far_canvas.width()));
+        for (int y = 0; y < tile.height; ++y) {
+            const Between row = coarse_place(tile.y + y, scale);
+            for (int c = 0; c < channels; ++c) {
+                const float* above = far_canvas.row(row.node + kFarMargin, c);
+                const float* below = far_canvas.row(row.node + kFarMargin + 1, c);
+                const int first = coarse_place(tile.x, scale).node + kFarMargin;
+                const int end = coarse_place(tile.x + tile.width - 1, scale).node + kFarMargin + 2;
+                for (int i = first; i < end; ++i) {
+                    nodes[static_cast<std::size_t>(i)] =
+                        above[i] + row.right * (below[i] - above[i]);
+                }
+                add_between(nodes.data() + kFarMargin, scale, tile.x, tile.width,
+                            tile.planes[static_cast<std::size_t>(c)] + y * tile.stride);
+            }
         }
     }
 
-    Sprite sprite_of(const sources::Cluster& cluster, int radius) const {
-        Sprite sprite;
-        const bool is_cell = cluster.shape == sources::Cluster::Shape::kCell;
-        const double x = cluster.centroid_x - 0.5;  // in pixels, middles at whole numbers
-        const double y = cluster.centroid_y - 0.5;
-        const int base_x = is_cell ? cluster.x : static_cast<int>(std::floor(x));
-        const int base_y = is_cell ? cluster.y : static_cast<int>(std::floor(y));
-        const double fx = is_cell ? 0 : x - base_x;
-        const double fy = is_cell ? 0 : y - base_y;
-        sprite.taps = fx == 0 && fy == 0 ? 1 : 4;
-        const PaddedKernel& kernel = smooth.at(is_cell ? cluster.side : 1);
-        sprite.stride = kernel.stride();
-        sprite.x0 = base_x - centre_x;
-        sprite.y0 = base_y - centre_y;
-        for (int c = 0; c < channels; ++c) {
-            const auto i = static_cast<std::size_t>(c);
-            sprite.kernel[i] = kernel.plane(std::min(c, kernel_channels - 1));
-            const double e = static_cast<double>(cluster.energy[i]);
-            sprite.weight[i] = {
-                static_cast<float>(e * (1 - fx) * (1 - fy)), static_cast<float>(e * fx * (1 - fy)),
-                static_cast<float>(e * (1 - fx) * fy), static_cast<float>(e * fx * fy)};
+    static void add_between(const float* nodes, int scale, int x0, int count, float* to) {
+        std::array<float, 16> right = {};  // by place within a coarse pixel
+        std::array<int, 16> step = {};
+        for (int i = 0; i < scale; ++i) {
+            const Between place = coarse_place(i, scale);
+            right[static_cast<std::size_t>(i)] = place.right;
+            step[static_cast<std::size_t>(i)] = place.node;
         }
-        sprite.centre_x = static_cast<float>(cluster.centroid_x);
-        sprite.centre_y = static_cast<float>(cluster.centroid_y);
-        // A cell's own half diagonal, and the half pixel between whole distances.
-        sprite.radius = static_cast<float>(radius + 1 + (is_cell ? 0.75 * cluster.side : 0));
-        const int extra = sprite.taps == 4 ? 1 : 0;
-        const auto reach = static_cast<int>(sprite.radius) + 1;
-        const auto within = [&](int centre, int start, int extent, int size) {
-            return std::pair{std::max({0, start, centre - reach}),
-                             std::min({size, start + extent + extra, centre + reach + 1})};
-        };
-        std::tie(sprite.left, sprite.right) =
-            within(static_cast<int>(cluster.centroid_x), sprite.x0, kernel.width(), width);
-        std::tie(sprite.top, sprite.bottom) =
-            within(static_cast<int>(cluster.centroid_y), sprite.y0, kernel.height(), height);
-        return sprite;
+        for (int x = 0; x < count; ++x) {
+            const int pixel = x0 + x;
+            const auto phase = static_cast<std::size_t>(pixel % scale);
+            const float* node = nodes + pixel / scale + step[phase];
+            to[x] += node[0] + right[phase] * (node[1] - node[0]);
+        }
     }
 
     void draw_tile(const ConstImageView& light, const ImageView& out, const float* weights,
                    float dim_limit, std::size_t index, float* planes) const {
-        SpriteTile tile = tiles.tile(index);
-        tile.channels = channels;
-        tile.stride = SpriteTiles::kWidth;
-        constexpr std::size_t kPlane = SpriteTiles::kWidth * SpriteTiles::kHeight;
-        for (std::size_t c = 0; c < 3; ++c) tile.planes[c] = planes + c * kPlane;
-        std::fill_n(planes, 3 * kPlane, 0.0F);
+        const SpriteTile tile = cleared_tile(*near, index, planes);
         if (core_radius > 0) draw_cores(light, weights, dim_limit, tile);
-        draw_sprites(sprites.data(), tiles.order(index), tiles.count(index), tile);
+        near->draw(index, tile);
+        if (far) add_far(tile);
         for (int y = 0; y < tile.height; ++y) {
             for (int c = 0; c < channels; ++c) finish_row(out, weights, tile, y, c);
         }
@@ -271,21 +311,22 @@ struct Sprites::Impl {
                static_cast<std::size_t>(x);
     }
 
+    static constexpr std::size_t kTilePlane = SpriteTiles::kWidth * SpriteTiles::kHeight;
+
     int width;
     int height;
     int channels;
     int kernel_channels;
-    int centre_x;
-    int centre_y;
     SpriteOptions options;
-    int core_radius;
-    std::optional<KernelProfile> profile;
-    sources::KernelRoughness roughness;
+    int core_radius = 0;
     PaddedKernel core;
-    std::map<int, PaddedKernel> smooth;  // by side of the cell; 1: of points
-    SpriteTiles tiles;
+    std::optional<SpriteLayer> near;
+    sources::KernelRoughness roughness;
+    std::optional<SpriteLayer> far;  // of large kernels
+    sources::KernelRoughness far_roughness;
+    double far_error = 0;  // of its raster, per energy
+    Image far_canvas;
     std::vector<Buffer> scratch;
-    std::vector<Sprite> sprites;
 };
 
 Sprites::Sprites(int width, int height, int channels, const ConstImageView& kernel,

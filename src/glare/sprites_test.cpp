@@ -116,6 +116,43 @@ TEST(Sprites, StayWithinTheErrorAskedFor) {
     }
 }
 
+// Kernels that reach across the picture: their far part is drawn on a coarse raster.
+TEST(Sprites, LargeKernelsStayWithinTheErrorToo) {
+    constexpr int kWidth = 560;
+    constexpr int kHeight = 530;
+    Image kernel(2 * kWidth - 1, 2 * kHeight - 1, 1);
+    double sum = 0;
+    for (int y = 0; y < kernel.height(); ++y) {
+        for (int x = 0; x < kernel.width(); ++x) {
+            const double dx = x - kernel.width() / 2;
+            const double dy = y - kernel.height() / 2;
+            const double r2 = dx * dx + dy * dy;
+            // Streaks across all of it: they are what a coarse raster gets wrong first.
+            const double streak = std::exp(-std::pow(dy + 0.1 * dx, 2) / (2 + 1e-3 * r2));
+            kernel.at(x, y) = static_cast<float>((1 + 2 * streak) / std::pow(1 + r2, 1.1));
+            sum += static_cast<double>(kernel.at(x, y));
+        }
+    }
+    for (std::size_t i = 0; i < kernel.pixels(); ++i) {
+        kernel.plane(0)[i] /= static_cast<float>(sum);
+    }
+    const Image light = lights_over_ground(kWidth, kHeight, 12);
+    const Image weights = some_weights(kWidth, kHeight);
+    const Image truth = convolved(light, kernel, weights.plane(0));
+    for (const double error : {0.1, 0.02}) {
+        SpriteOptions options;
+        options.error = error;
+        Sprites sprites(kWidth, kHeight, 3, kernel, options);
+        Image out(kWidth, kHeight, 3);
+        const SpriteReport report = sprites.apply(light, out, weights.plane(0));
+        EXPECT_LE(report.error_bound, error * report.energy);
+        EXPECT_LE(relative_error(out, truth, light, weights.plane(0)),
+                  report.error_bound / report.energy + 2e-6);
+        EXPECT_GT(report.far_sprites, 0U);
+        EXPECT_LT(report.far_sprites * 4, report.bright_pixels);
+    }
+}
+
 // One pixel at a time there is no clustering, and what is cut is below the error asked for.
 TEST(Sprites, SinglePixelsAreTheKernel) {
     const Image kernel = needle_kernel(31, 5, 1);

@@ -29,11 +29,12 @@ struct SpriteOptions {
 
 struct SpriteReport {
     std::size_t bright_pixels = 0;
-    std::size_t sprites = 0;  // clusters and single pixels
-    double energy = 0;        // sum of w |light|
-    double energy_left = 0;   // of pixels that are too dim: they keep their light
-    double error_bound = 0;   // of the result, in the same unit; without that of kSimilarColor
-    double pixels_drawn = 0;  // area of all sprites, clipped to the picture
+    std::size_t sprites = 0;      // clusters and single pixels
+    std::size_t far_sprites = 0;  // the same for the far part of a large kernel
+    double energy = 0;            // sum of w |light|
+    double energy_left = 0;       // of pixels that are too dim: they keep their light
+    double error_bound = 0;       // of the result, in the same unit; without that of kSimilarColor
+    double pixels_drawn = 0;      // area of all sprites, clipped to the picture
     // Light that ended with the sprites: inside and outside the picture together.
     double energy_cut = 0;
 };
