@@ -5,9 +5,22 @@
 #include <tuple>
 #include <utility>
 
+#include "aureole/base/units.h"
 #include "glare/sprite_crop.h"
 
 namespace aureole::glare {
+namespace {
+
+void add_work(const Sprite& sprite, SpriteWork& work) {
+    const double width = std::max(0, sprite.right - sprite.left);
+    const double height = std::max(0, sprite.bottom - sprite.top);
+    const double radius = static_cast<double>(sprite.radius);
+    const double area = std::min(width * height, kPi * radius * radius);
+    (sprite.taps == 1 ? work.one_tap_pixels : work.four_tap_pixels) += area;
+    work.rows += height * (1 + width / SpriteTiles::kWidth);
+}
+
+}  // namespace
 
 SpriteLayer::SpriteLayer(int width, int height, int channels, int scale, int margin,
                          const ConstImageView& kernel, int max_cell_side)
@@ -34,9 +47,7 @@ SpriteLayer::Made SpriteLayer::make(const std::vector<sources::Cluster>& cluster
         const int radius = crop_radius(cluster, profile_, level);
         made.energy_cut += energy_beyond(cluster, profile_, radius);
         sprites_.push_back(sprite_of(cluster, radius));
-        const Sprite& s = sprites_.back();
-        made.pixels_drawn +=
-            static_cast<double>(std::max(0, s.right - s.left)) * std::max(0, s.bottom - s.top);
+        add_work(sprites_.back(), made.work);
     }
     tiles_.sort(sprites_);
     return made;

@@ -11,6 +11,15 @@
 
 namespace aureole::glare {
 
+// What it costs to draw sprites: pixels with one tap of the kernel and with four, of one channel,
+// and rows of sprites within tiles.
+struct SpriteWork {
+    double one_tap_pixels = 0;
+    double four_tap_pixels = 0;
+    double rows = 0;
+    double pixels() const { return one_tap_pixels + four_tap_pixels; }
+};
+
 class SpriteLayer {
   public:
     // `kernel` in pixels of the layer, each of which is `scale` pixels of the picture wide. The
@@ -27,7 +36,7 @@ class SpriteLayer {
     // Replaces the sprites. `level`: of crop_level().
     struct Made {
         double energy_cut = 0;
-        double pixels_drawn = 0;
+        SpriteWork work;
     };
     Made make(const std::vector<sources::Cluster>& clusters, double level);
 

@@ -20,6 +20,15 @@ SpriteTile SpriteTiles::tile(std::size_t index) const {
     return tile;
 }
 
+SpriteTile SpriteTiles::cleared_tile(std::size_t index, int channels, float* scratch) const {
+    SpriteTile cleared = tile(index);
+    cleared.channels = channels;
+    cleared.stride = kWidth;
+    for (std::size_t c = 0; c < 3; ++c) cleared.planes[c] = scratch + c * kPlane;
+    std::fill_n(scratch, static_cast<std::size_t>(channels) * kPlane, 0.0F);
+    return cleared;
+}
+
 template <class Body>
 void SpriteTiles::for_each_tile_of(const Sprite& sprite, const Body& body) const {
     if (sprite.left >= sprite.right || sprite.top >= sprite.bottom) return;

@@ -14,12 +14,15 @@ class SpriteTiles {
     // Wide enough for long vectors, and three planes of a tile stay in the L2 cache.
     static constexpr int kWidth = 256;
     static constexpr int kHeight = 32;
+    static constexpr std::size_t kPlane = std::size_t{kWidth} * kHeight;
 
     SpriteTiles(int width, int height);
 
     std::size_t size() const { return static_cast<std::size_t>(columns_) * rows_; }
     // The part of the picture that tile `index` is: planes are not set.
     SpriteTile tile(std::size_t index) const;
+    // The same in scratch memory of 3 kPlane floats, which is set to 0.
+    SpriteTile cleared_tile(std::size_t index, int channels, float* scratch) const;
 
     // Keeps the order of the sprites in every tile.
     void sort(const std::vector<Sprite>& sprites);
