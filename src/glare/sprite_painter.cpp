@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "aureole/base/parallel.h"
 #include "aureole/sources/brightness.h"
@@ -34,20 +33,21 @@ ConstImageView part(const ConstImageView& view, int x, int width) {
 }  // namespace
 
 SpritePainter::SpritePainter(int width, int height, int channels, const ConstImageView& kernel,
-                             const SpriteOptions& options, std::shared_ptr<FarLayer> far)
+                             const SpriteOptions& options, const FarKernel* split)
     : width_(width),
       height_(height),
       channels_(channels),
       kernel_channels_(kernel.channels),
       options_(options),
-      core_radius_(core_radius_for(kernel, options)),
-      far_(std::move(far)),
       scratch_(static_cast<std::size_t>(max_workers())) {
-    const SplitKernel split = split_kernel(kernel, core_radius_);
-    if (core_radius_ > 0) core_ = PaddedKernel(split.core);
-    roughness_ = sources::roughness_of(split.smooth);
-    options_.clusters.cells = std::max(kernel.width, kernel.height) <= kLargestCellKernel;
-    near_.emplace(width, height, channels, 1, 0, split.smooth,
+    if (split != nullptr) far_.emplace(width, height, channels, *split);
+    const ConstImageView near = split == nullptr ? kernel : split->near.view();
+    core_radius_ = core_radius_for(near, options);
+    const SplitKernel parts = split_kernel(near, core_radius_);
+    if (core_radius_ > 0) core_ = PaddedKernel(parts.core);
+    roughness_ = sources::roughness_of(parts.smooth);
+    options_.clusters.cells = std::max(near.width, near.height) <= kLargestCellKernel;
+    near_.emplace(width, height, channels, 1, 0, parts.smooth,
                   options_.clusters.cells ? options_.clusters.max_side : 1);
     for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
 }

@@ -1,7 +1,6 @@
 // What Sprites does, in two steps: planning, after which the cost is known, and drawing.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,10 +25,9 @@ inline constexpr double kShareOfFarRaster = 0.125;
 
 class SpritePainter {
   public:
-    // `kernel`: all of it, or its near part if there is a far layer, which may be shared with
-    // others as long as nothing is planned on it between plan() and draw().
+    // `split`: of the kernel; null for none.
     SpritePainter(int width, int height, int channels, const ConstImageView& kernel,
-                  const SpriteOptions& options, std::shared_ptr<FarLayer> far);
+                  const SpriteOptions& options, const FarKernel* split);
 
     // Pixels that are too dim to be drawn.
     float dim_limit(const sources::BrightnessHistogram& histogram) const;
@@ -44,7 +42,8 @@ class SpritePainter {
     // What was planned for the same light.
     void draw(const ConstImageView& light, const ImageView& out, const float* weights);
 
-    bool has_far() const { return far_ != nullptr; }
+    bool has_far() const { return far_.has_value(); }
+    int core_radius() const { return core_radius_; }
     const SpriteOptions& options() const { return options_; }
 
   private:
@@ -71,7 +70,7 @@ class SpritePainter {
     PaddedKernel core_;
     sources::KernelRoughness roughness_;
     std::optional<SpriteLayer> near_;
-    std::shared_ptr<FarLayer> far_;
+    std::optional<FarLayer> far_;
     float dim_limit_ = 0;
     std::vector<Buffer> scratch_;
 };

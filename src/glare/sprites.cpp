@@ -56,12 +56,8 @@ Sprites::Sprites(int width, int height, int channels, const ConstImageView& kern
     if (options.clusters.criterion == sources::ClusterOptions::Criterion::kBoundedError) {
         split = find_far_kernel(kernel, kShareOfFarRaster * options.error);
     }
-    std::shared_ptr<FarLayer> far;
-    if (split) far = std::make_shared<FarLayer>(width, height, channels, *split);
-    impl_ = std::make_unique<Impl>(
-        Impl{{},
-             SpritePainter(width, height, channels, split ? split->near.view() : kernel, options,
-                           std::move(far))});
+    impl_ = std::make_unique<Impl>(Impl{
+        {}, SpritePainter(width, height, channels, kernel, options, split ? &*split : nullptr)});
 }
 Sprites::~Sprites() = default;
 Sprites::Sprites(Sprites&&) noexcept = default;

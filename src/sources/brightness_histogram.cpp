@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
@@ -99,7 +100,7 @@ float BrightnessHistogram::dim_limit(double share) const {
         }
         below += bins_[i].energy;
     }
-    return lower_edge(kBins - 1);
+    return std::numeric_limits<float>::max();
 }
 
 double BrightnessHistogram::pixels_above(float limit) const {

@@ -74,6 +74,14 @@ TEST(BrightnessHistogram, CountsWhatIsOnEitherSideOfALimit) {
     }
 }
 
+TEST(BrightnessHistogram, OfDarknessHasNothingAboveItsLimit) {
+    BrightnessHistogram histogram;
+    histogram.measure(Image(20, 10, 3), nullptr);
+    EXPECT_TRUE(std::isfinite(histogram.dim_limit(0.1)));
+    EXPECT_EQ(histogram.pixels_above(histogram.dim_limit(0.1)), 0);
+    EXPECT_EQ(histogram.energy(), 0);
+}
+
 TEST(BrightnessHistogram, OfSomeRowsEstimatesAll) {
     const Image image = noise(400, 301);
     BrightnessHistogram all;

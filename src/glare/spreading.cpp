@@ -1,0 +1,200 @@
+#include "glare/spreading.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "glare/far_kernel.h"
+
+namespace aureole::glare {
+namespace {
+
+using Reason = MethodReport::Reason;
+
+// Looking at a whole picture is worth this share of what the fastest sure method costs; else some
+// rows decide whether there is hope.
+constexpr double kCheapLook = 0.06;
+constexpr int kRowStep = 16;
+// By how much what some rows show must be above the sure cost: they are a sample.
+constexpr double kSureOfSample = 1.5;
+
+MethodReport::Candidate& candidate(MethodReport& report, Method method) {
+    return *std::find_if(report.candidates.begin(), report.candidates.end(),
+                         [method](const auto& c) { return c.method == method; });
+}
+
+}  // namespace
+
+Spreading::Spreading(int width, int height, int channels, const Image& kernel,
+                     const GlareOptions& options)
+    : pixels_(static_cast<double>(width) * height),
+      channel_share_(channels / 3.0),
+      width_(width),
+      height_(height),
+      asked_(options.method) {
+    if (asked_ == Method::kDirect) direct_kernel_ = kernel;
+    const bool automatic = asked_ == Method::kAuto;
+    if (asked_ == Method::kFft || automatic) convolver_.emplace(width, height, channels, kernel);
+    if (asked_ == Method::kDirect || asked_ == Method::kFft) return;
+    const std::optional<FarKernel> split =
+        find_far_kernel(kernel, kShareOfFarRaster * options.cluster_error);
+    const FarKernel* far = split ? &*split : nullptr;
+    if (asked_ == Method::kSprites || automatic) {
+        SpriteOptions sprites;
+        sprites.error = options.cluster_error;
+        sprites.clusters.max_side = options.cluster_side;
+        painter_.emplace(width, height, channels, kernel, sprites, far);
+    }
+    if (asked_ == Method::kHybrid || automatic) {
+        hybrid_.emplace(width, height, channels, kernel, options.cluster_error, far);
+    }
+    if (automatic) speed_ = machine_speed();
+}
+
+int Spreading::padded_width() const {
+    if (convolver_) return convolver_->padded_width();
+    return hybrid_ ? hybrid_->convolver().padded_width() : width_;
+}
+int Spreading::padded_height() const {
+    if (convolver_) return convolver_->padded_height();
+    return hybrid_ ? hybrid_->convolver().padded_height() : height_;
+}
+
+void Spreading::predict(Method method, double seconds) {
+    candidate(report_, method).predicted_seconds = seconds;
+}
+
+void Spreading::report_plan(double energy, double error_bound, double energy_cut,
+                            std::size_t sprites) {
+    report_.error_bound = energy > 0 ? error_bound / energy : 0;
+    report_.energy_cut = energy > 0 ? energy_cut / energy : 0;
+    report_.sprites = sprites;
+}
+
+double Spreading::plan_sprites(const ConstImageView& light, const float* weights) {
+    sprites_plan_ = painter_->plan(light, weights, painter_->dim_limit(histogram_));
+    const double passes = pixels_ * (speed_.tile + (painter_->has_far() ? speed_.far : 0));
+    return channel_share_ * (passes + speed_.core * sprites_plan_.core_pixels) +
+           drawing_seconds(speed_, sprites_plan_.work, light.channels);
+}
+
+double Spreading::plan_hybrid(const ConstImageView& light, const float* weights) {
+    hybrid_plan_ = hybrid_->plan(light, weights, histogram_);
+    const double passes = hybrid_plan_.sprites > 0 ? pixels_ * speed_.far : 0;
+    return transform_seconds(speed_, hybrid_->convolver()) + channel_share_ * passes +
+           drawing_seconds(speed_, hybrid_plan_.work, light.channels);
+}
+
+double Spreading::least_sprites_seconds(double bright) const {
+    const double layers = painter_->has_far() ? 2 : 1;
+    const double passes =
+        pixels_ * (layers * speed_.clusters + speed_.tile + (painter_->has_far() ? speed_.far : 0));
+    const double side = painter_->options().clusters.max_side;
+    const double core = 2 * painter_->core_radius() + 1;
+    const double per_light =
+        layers * speed_.search + speed_.core * core * core + speed_.row * core / (side * side);
+    return channel_share_ * (passes + bright * per_light);
+}
+
+double Spreading::least_hybrid_seconds(double bright) const {
+    const double passes = pixels_ * (speed_.clusters + speed_.far);
+    return transform_seconds(speed_, hybrid_->convolver()) +
+           channel_share_ * (passes + bright * speed_.search);
+}
+
+Method Spreading::choose(const ConstImageView& light, const float* weights) {
+    const double start = clock_seconds();
+    for (auto& c : report_.candidates) c.predicted_seconds = 0;
+    double best = transform_seconds(speed_, *convolver_);
+    Method method = Method::kFft;
+    predict(method, best);
+    if (!hybrid_->has_far()) {
+        const double seconds = transform_seconds(speed_, hybrid_->convolver());
+        predict(Method::kHybrid, seconds);
+        if (seconds < best) {
+            best = seconds;
+            method = Method::kHybrid;
+        }
+    }
+    const double look = channel_share_ * speed_.histogram * pixels_;
+    const auto hopeless = [&](double bright_near, double bright_far, double limit) {
+        return least_sprites_seconds(bright_near) >= limit &&
+               (!hybrid_->has_far() || least_hybrid_seconds(bright_far) >= limit);
+    };
+    const auto hopeless_at = [&](double limit) {
+        return hopeless(
+            histogram_.pixels_above(painter_->dim_limit(histogram_)),
+            hybrid_->has_far() ? histogram_.pixels_above(hybrid_->dim_limit(histogram_)) : 0,
+            limit);
+    };
+    report_.reason = Reason::kNoGain;
+    if (hopeless(0, 0, best - look)) return method;
+    report_.reason = Reason::kSample;
+    if (look > kCheapLook * best) {
+        histogram_.measure(light, weights, kRowStep);
+        if (hopeless_at(kSureOfSample * best)) return method;
+    }
+    report_.reason = Reason::kHistogram;
+    histogram_.measure(light, weights);
+    if (hopeless_at(best)) return method;
+    report_.reason = Reason::kPredicted;
+    // Once planned, planning is spent: what is left to do decides.
+    if (hybrid_->has_far() &&
+        least_hybrid_seconds(histogram_.pixels_above(hybrid_->dim_limit(histogram_))) < best) {
+        const double seconds = plan_hybrid(light, weights);
+        predict(Method::kHybrid, clock_seconds() - start + seconds);
+        if (seconds < best) {
+            best = seconds;
+            method = Method::kHybrid;
+        }
+    }
+    const double before_sprites = clock_seconds();
+    if (least_sprites_seconds(histogram_.pixels_above(painter_->dim_limit(histogram_))) < best) {
+        const double seconds = plan_sprites(light, weights);
+        predict(Method::kSprites, look + clock_seconds() - before_sprites + seconds);
+        if (seconds < best) {
+            best = seconds;
+            method = Method::kSprites;
+        }
+    }
+    return method;
+}
+
+void Spreading::run(const ConstImageView& in, const ImageView& out, const float* weights) noexcept {
+    const double start = clock_seconds();
+    if (asked_ == Method::kDirect) {
+        fourier::convolve_directly(in, direct_kernel_, out, weights);
+        report_.method = asked_;
+        return;
+    }
+    const bool automatic = asked_ == Method::kAuto;
+    report_.method = automatic ? choose(in, weights) : asked_;
+    const bool planned = automatic && report_.reason == Reason::kPredicted;
+    report_plan(0, 0, 0, 0);
+    if (report_.method == Method::kFft) {
+        convolver_->run(in, out, weights);
+    } else if (report_.method == Method::kSprites) {
+        if (!planned) {
+            histogram_.measure(in, weights);
+            plan_sprites(in, weights);
+        }
+        const SpriteReport& plan = sprites_plan_.report;
+        report_plan(plan.energy, plan.error_bound, plan.energy_cut,
+                    plan.sprites + plan.far_sprites);
+        painter_->draw(in, out, weights);
+    } else {
+        if (!hybrid_->has_far()) {
+            report_plan(1, hybrid_->lost(), hybrid_->lost(), 0);
+        } else {
+            if (!planned) {
+                histogram_.measure(in, weights);
+                plan_hybrid(in, weights);
+            }
+            report_plan(hybrid_plan_.energy, hybrid_plan_.error_bound, hybrid_plan_.energy_cut,
+                        hybrid_plan_.sprites);
+        }
+        hybrid_->draw(in, out, weights);
+    }
+    candidate(report_, report_.method).actual_seconds = clock_seconds() - start;
+}
+
+}  // namespace aureole::glare
