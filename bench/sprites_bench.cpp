@@ -68,7 +68,7 @@ Image star_kernel(int width, int height) {
     return kernel;
 }
 
-// An even, antialiased disc.
+// An even disc, of whole pixels: antialiasing of a picture comes after its glare in the paper.
 void add_disc(Image& image, double cx, double cy, double radius, float value) {
     const int top = std::max(0, static_cast<int>(cy - radius) - 1);
     const int bottom = std::min(image.height(), static_cast<int>(cy + radius) + 2);
@@ -77,8 +77,8 @@ void add_disc(Image& image, double cx, double cy, double radius, float value) {
     for (int y = top; y < bottom; ++y) {
         for (int x = left; x < right; ++x) {
             const double r = std::hypot(x + 0.5 - cx, y + 0.5 - cy);
-            const auto inside = static_cast<float>(std::clamp(radius - r + 0.5, 0.0, 1.0));
-            for (int c = 0; c < 3; ++c) image.at(x, y, c) += inside * value;
+            if (r > radius) continue;
+            for (int c = 0; c < 3; ++c) image.at(x, y, c) += value;
         }
     }
 }

@@ -123,8 +123,8 @@ void measure_painting(MachineSpeed& speed) {
     fill(out, 0);
     sources::BrightnessHistogram histogram;
     speed.histogram = least_seconds([&] { histogram.measure(light, nullptr); }) / kPixels;
-    speed.clusters = least_seconds([&] { painter.plan(light, nullptr, 0.5F); }) / kPixels;
-    speed.tile = least_seconds([&] { painter.draw(light, out, nullptr); }) / kPixels;
+    speed.clusters = least_seconds([&] { painter.plan(light, nullptr, histogram); }) / kPixels;
+    speed.tile = least_seconds([&] { painter.draw(light, out, nullptr, histogram); }) / kPixels;
     // Pixels alone, in one block of three.
     double bright = 0;
     for (int y = 0; y < kHeight; y += 4) {
@@ -133,10 +133,11 @@ void measure_painting(MachineSpeed& speed) {
             ++bright;
         }
     }
+    histogram.measure(light, nullptr);
     SpritePainter::Plan plan;
-    const double planning = least_seconds([&] { plan = painter.plan(light, nullptr, 0.5F); });
+    const double planning = least_seconds([&] { plan = painter.plan(light, nullptr, histogram); });
     speed.search = std::max(0.0, planning - kPixels * speed.clusters) / bright;
-    const double drawing = least_seconds([&] { painter.draw(light, out, nullptr); });
+    const double drawing = least_seconds([&] { painter.draw(light, out, nullptr, histogram); });
     speed.core =
         std::max(0.0, drawing - kPixels * speed.tile - drawing_seconds(speed, plan.work, 3)) /
         plan.core_pixels;
@@ -161,7 +162,9 @@ void measure_far(MachineSpeed& speed) {
     Image light(kWidth, kHeight, 3);
     fill(light, 0);
     light.at(kWidth / 2, kHeight / 2, 0) = 1;
-    far.plan(light, nullptr, 0, 1, 0);
+    sources::BrightnessHistogram histogram;
+    histogram.measure(light, nullptr);
+    far.plan(light, nullptr, histogram, 0, 1, 0);
     std::vector<Buffer> scratch(static_cast<std::size_t>(max_workers()));
     for (Buffer& buffer : scratch) buffer = Buffer(3 * SpriteTiles::kPlane);
     const SpriteTiles tiles(kWidth, kHeight);

@@ -46,14 +46,16 @@ FarLayer::FarLayer(int width, int height, int channels, const FarKernel& kernel)
     for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
 }
 
-FarLayer::Plan FarLayer::plan(const ConstImageView& light, const float* weights, float dim_limit,
+FarLayer::Plan FarLayer::plan(const ConstImageView& light, const float* weights,
+                              const sources::BrightnessHistogram& measured, float dim_limit,
                               double cluster_error, double most_lost) {
     sources::ClusterOptions options;
     options.cells = false;
     options.max_side = kClusterSide;
     options.error = cluster_error;
     options.dim_limit = dim_limit;
-    const sources::Clusters found = sources::find_clusters(light, weights, roughness_, options);
+    const sources::Clusters found =
+        sources::find_clusters(light, weights, roughness_, options, &measured);
     // Coarse pixels stand for scale^2 of the picture.
     const double area = scale_ * scale_;
     const double level = crop_level(found.clusters, layer_.profile(), most_lost / area);

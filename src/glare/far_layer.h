@@ -7,6 +7,7 @@
 
 #include "aureole/base/buffer.h"
 #include "aureole/image/image.h"
+#include "aureole/sources/brightness_histogram.h"
 #include "glare/far_kernel.h"
 #include "glare/sprite_layer.h"
 
@@ -32,8 +33,9 @@ class FarLayer {
     };
     // Finds the clusters of pixels above `dim_limit`, with an error of `cluster_error` of their
     // energy, and ends their sprites where `most_lost` is lost in all.
-    Plan plan(const ConstImageView& light, const float* weights, float dim_limit,
-              double cluster_error, double most_lost);
+    Plan plan(const ConstImageView& light, const float* weights,
+              const sources::BrightnessHistogram& measured, float dim_limit, double cluster_error,
+              double most_lost);
 
     // What was planned, on the raster.
     void draw();

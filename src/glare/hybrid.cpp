@@ -89,7 +89,7 @@ Hybrid::Plan Hybrid::plan(const ConstImageView& light, const float* weights,
     Plan plan;
     plan.energy = histogram.energy();
     const FarLayer::Plan distant =
-        far_->plan(light, weights, dim_limit(histogram), kShareOfClusters * error_,
+        far_->plan(light, weights, histogram, dim_limit(histogram), kShareOfClusters * error_,
                    kShareOfCrop * error_ * plan.energy);
     const double left_out = far_->share() * distant.energy_left;
     plan.sprites = distant.sprites;
@@ -118,10 +118,16 @@ void Hybrid::add_far(const ImageView& out, const float* weights) noexcept {
                     ? nullptr
                     : weights + static_cast<std::ptrdiff_t>(tile.y + y) * out.width + tile.x;
             for (int c = 0; c < channels_; ++c) {
-                const float* row = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
+                float* row = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
                 float* to = &out.at(tile.x, tile.y + y, c);
-                for (int x = 0; x < tile.width; ++x) {
-                    to[x * out.pixel_stride] += weight == nullptr ? row[x] : row[x] / weight[x];
+                if (weight != nullptr) {
+                    for (int x = 0; x < tile.width; ++x) row[x] /= weight[x];
+                }
+                // A stride of 1 that the compiler knows of becomes vectors.
+                if (out.pixel_stride == 1) {
+                    for (int x = 0; x < tile.width; ++x) to[x] += row[x];
+                } else {
+                    for (int x = 0; x < tile.width; ++x) to[x * out.pixel_stride] += row[x];
                 }
             }
         }

@@ -71,7 +71,7 @@ void Spreading::report_plan(double energy, double error_bound, double energy_cut
 }
 
 double Spreading::plan_sprites(const ConstImageView& light, const float* weights) {
-    sprites_plan_ = painter_->plan(light, weights, painter_->dim_limit(histogram_));
+    sprites_plan_ = painter_->plan(light, weights, histogram_);
     const double passes = pixels_ * (speed_.tile + (painter_->has_far() ? speed_.far : 0));
     return channel_share_ * (passes + speed_.core * sprites_plan_.core_pixels) +
            drawing_seconds(speed_, sprites_plan_.work, light.channels);
@@ -180,7 +180,7 @@ void Spreading::run(const ConstImageView& in, const ImageView& out, const float*
         const SpriteReport& plan = sprites_plan_.report;
         report_plan(plan.energy, plan.error_bound, plan.energy_cut,
                     plan.sprites + plan.far_sprites);
-        painter_->draw(in, out, weights);
+        painter_->draw(in, out, weights, histogram_);
     } else {
         if (!hybrid_->has_far()) {
             report_plan(1, hybrid_->lost(), hybrid_->lost(), 0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "aureole/base/parallel.h"
 #include "aureole/sources/brightness.h"
@@ -58,17 +59,17 @@ float SpritePainter::dim_limit(const sources::BrightnessHistogram& histogram) co
 }
 
 SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float* weights,
-                                        float dim_limit) {
-    dim_limit_ = dim_limit;
+                                        const sources::BrightnessHistogram& measured) {
+    dim_limit_ = dim_limit(measured);
     // Of the shares of clusters and of ends each layer has half if there are two; the far one pays
     // for its raster with its own.
     const double layers = far_ ? 2 : 1;
     const double clusters_share = kShares.clusters * options_.error / layers;
     sources::ClusterOptions cluster_options = options_.clusters;
     cluster_options.error = clusters_share;
-    cluster_options.dim_limit = dim_limit;
+    cluster_options.dim_limit = dim_limit_;
     const sources::Clusters found =
-        sources::find_clusters(light, weights, roughness_, cluster_options);
+        sources::find_clusters(light, weights, roughness_, cluster_options, &measured);
     Plan plan;
     SpriteReport& report = plan.report;
     report.bright_pixels = found.bright_pixels;
@@ -82,8 +83,8 @@ SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float
     report.error_bound = found.error_bound + made.energy_cut + 2 * report.energy_left;
     plan.work = made.work;
     if (far_) {
-        const FarLayer::Plan distant =
-            far_->plan(light, weights, dim_limit, clusters_share - far_->error(), most_lost);
+        const FarLayer::Plan distant = far_->plan(light, weights, measured, dim_limit_,
+                                                  clusters_share - far_->error(), most_lost);
         report.far_sprites = distant.sprites;
         report.energy_cut += distant.energy_cut;
         report.error_bound += distant.error_bound;
@@ -97,53 +98,75 @@ SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float
     return plan;
 }
 
-void SpritePainter::draw(const ConstImageView& light, const ImageView& out, const float* weights) {
+void SpritePainter::draw(const ConstImageView& light, const ImageView& out, const float* weights,
+                         const sources::BrightnessHistogram& measured) {
     if (far_) far_->draw();
     parallel_for(near_->tiles().size(), [&](std::size_t i, int worker) {
-        draw_tile(light, out, weights, i, scratch_[static_cast<std::size_t>(worker)].data());
+        draw_tile(light, out, weights, measured, i,
+                  scratch_[static_cast<std::size_t>(worker)].data());
     });
 }
 
 void SpritePainter::draw_tile(const ConstImageView& light, const ImageView& out,
-                              const float* weights, std::size_t index, float* planes) const {
-    const SpriteTile tile = near_->tiles().cleared_tile(index, channels_, planes);
-    if (core_radius_ > 0) draw_cores(light, weights, tile);
-    near_->draw(index, tile);
-    if (far_) far_->add_to(tile);
-    for (int y = 0; y < tile.height; ++y) {
-        for (int c = 0; c < channels_; ++c) finish_row(out, weights, tile, y, c);
+                              const float* weights, const sources::BrightnessHistogram& measured,
+                              std::size_t index, float* planes) const {
+    SpriteTile tile = near_->tiles().tile(index);
+    const int reach = core_radius_;
+    const bool bright =
+        measured.may_be_above(dim_limit_, tile.x - reach, tile.y - reach,
+                              tile.x + tile.width + reach, tile.y + tile.height + reach);
+    // planes[0] stays null where nothing is drawn.
+    if (bright || far_ || near_->tiles().count(index) > 0) {
+        tile = near_->tiles().cleared_tile(index, channels_, planes);
+        if (bright && core_radius_ > 0) draw_cores(light, weights, tile);
+        near_->draw(index, tile);
+        if (far_) far_->add_to(tile);
     }
-    keep_dim_light(light, out, tile);
+    for (int y = 0; y < tile.height; ++y) finish_row(light, out, weights, tile, y, bright);
 }
 
-// From energy back to the picture's values.
-void SpritePainter::finish_row(const ImageView& out, const float* weights, const SpriteTile& tile,
-                               int y, int c) const {
-    const float* row = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
-    float* to = &out.at(tile.x, tile.y + y, c);
-    if (weights == nullptr) {
-        for (int x = 0; x < tile.width; ++x) to[x * out.pixel_stride] = row[x];
-        return;
-    }
-    const float* weight = weights + pixel(tile.x, tile.y + y);
-    for (int x = 0; x < tile.width; ++x) to[x * out.pixel_stride] = row[x] / weight[x];
-}
-
-// Light that is too dim to be drawn stays where it is.
-void SpritePainter::keep_dim_light(const ConstImageView& light, const ImageView& out,
-                                   const SpriteTile& tile) const {
+// From energy back to the picture's values; light that is too dim to be drawn stays where it is.
+void SpritePainter::finish_row(const ConstImageView& light, const ImageView& out,
+                               const float* weights, const SpriteTile& tile, int y,
+                               bool bright) const {
     std::array<float, SpriteTiles::kWidth> largest;
-    for (int y = tile.y; y < tile.y + tile.height; ++y) {
-        sources::largest_channel_row(part(light, tile.x, tile.width), y, largest.data());
-        for (int c = 0; c < channels_; ++c) {
-            const float* from = light.data + light.offset(tile.x, y, c);
-            float* to = &out.at(tile.x, y, c);
-            for (int x = 0; x < tile.width; ++x) {
-                const float dim = largest[static_cast<std::size_t>(x)] > dim_limit_
-                                      ? 0.0F
-                                      : from[x * light.pixel_stride];
-                to[x * out.pixel_stride] += dim;
+    if (bright) {
+        sources::largest_channel_row(part(light, tile.x, tile.width), tile.y + y, largest.data());
+    }
+    for (int c = 0; c < (weights == nullptr ? 0 : channels_); ++c) {
+        if (tile.planes[0] == nullptr) break;
+        float* row = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
+        const float* weight = weights + pixel(tile.x, tile.y + y);
+        for (int x = 0; x < tile.width; ++x) row[x] /= weight[x];
+    }
+    for (int c = 0; c < channels_; ++c) {
+        const float* from = light.data + light.offset(tile.x, tile.y + y, c);
+        float* to = &out.at(tile.x, tile.y + y, c);
+        const float* row = tile.planes[0] == nullptr
+                               ? nullptr
+                               : tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
+        const auto finish = [&](auto in_stride, auto out_stride) {
+            if (row == nullptr) {
+                for (int x = 0; x < tile.width; ++x) to[x * out_stride] = from[x * in_stride];
+            } else if (!bright) {
+                for (int x = 0; x < tile.width; ++x) {
+                    to[x * out_stride] = row[x] + from[x * in_stride];
+                }
+            } else {
+                for (int x = 0; x < tile.width; ++x) {
+                    const float dim = largest[static_cast<std::size_t>(x)] > dim_limit_
+                                          ? 0.0F
+                                          : from[x * in_stride];
+                    to[x * out_stride] = row[x] + dim;
+                }
             }
+        };
+        // Strides of 1 that the compiler knows of become vectors.
+        if (light.pixel_stride == 1 && out.pixel_stride == 1) {
+            constexpr std::integral_constant<int, 1> kOne;
+            finish(kOne, kOne);
+        } else {
+            finish(light.pixel_stride, out.pixel_stride);
         }
     }
 }

@@ -37,10 +37,12 @@ class SpritePainter {
         SpriteWork work;  // far sprites included
         double core_pixels = 0;
     };
-    // `dim_limit`: of the function above.
-    Plan plan(const ConstImageView& light, const float* weights, float dim_limit);
+    // `measured`: all of the light.
+    Plan plan(const ConstImageView& light, const float* weights,
+              const sources::BrightnessHistogram& measured);
     // What was planned for the same light.
-    void draw(const ConstImageView& light, const ImageView& out, const float* weights);
+    void draw(const ConstImageView& light, const ImageView& out, const float* weights,
+              const sources::BrightnessHistogram& measured);
 
     bool has_far() const { return far_.has_value(); }
     int core_radius() const { return core_radius_; }
@@ -48,11 +50,10 @@ class SpritePainter {
 
   private:
     void draw_tile(const ConstImageView& light, const ImageView& out, const float* weights,
-                   std::size_t index, float* planes) const;
-    void finish_row(const ImageView& out, const float* weights, const SpriteTile& tile, int y,
-                    int c) const;
-    void keep_dim_light(const ConstImageView& light, const ImageView& out,
-                        const SpriteTile& tile) const;
+                   const sources::BrightnessHistogram& measured, std::size_t index,
+                   float* planes) const;
+    void finish_row(const ConstImageView& light, const ImageView& out, const float* weights,
+                    const SpriteTile& tile, int y, bool bright) const;
     void draw_cores(const ConstImageView& light, const float* weights,
                     const SpriteTile& tile) const;
     Sprite core_sprite(const ConstImageView& light, int x, int y, float weight) const;

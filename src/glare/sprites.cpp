@@ -65,11 +65,9 @@ Sprites& Sprites::operator=(Sprites&&) noexcept = default;
 
 SpriteReport Sprites::apply(const ConstImageView& light, const ImageView& out,
                             const float* weights) {
-    SpritePainter& painter = impl_->painter;
-    if (!(painter.options().clusters.dim_limit > 0)) impl_->histogram.measure(light, weights);
-    const SpriteReport report =
-        painter.plan(light, weights, painter.dim_limit(impl_->histogram)).report;
-    painter.draw(light, out, weights);
+    impl_->histogram.measure(light, weights);
+    const SpriteReport report = impl_->painter.plan(light, weights, impl_->histogram).report;
+    impl_->painter.draw(light, out, weights, impl_->histogram);
     return report;
 }
 

@@ -20,6 +20,7 @@ namespace {
 constexpr unsigned kDroppedBits = 18;
 constexpr std::size_t kBins = std::size_t{1} << (31U - kDroppedBits);
 constexpr int kRowsPerPart = 64;
+constexpr int kLanes = 2;  // histograms in turns: neighbours are often of one brightness
 
 std::size_t bin_of(float value) { return std::bit_cast<std::uint32_t>(value) >> kDroppedBits; }
 float lower_edge(std::size_t bin) {
@@ -60,9 +61,15 @@ void BrightnessHistogram::measure(const ConstImageView& light, const float* weig
     }
     const int rows = (light.height + row_step - 1) / row_step;
     const auto parts = static_cast<std::size_t>((rows + kRowsPerPart - 1) / kRowsPerPart);
-    parts_.assign(parts * kBins, {});
+    const std::size_t part_size = kLanes * kBins;
+    parts_.assign(parts * part_size, {});
+    const bool complete = row_step == 1;
+    block_columns_ = (light.width + kBlockSide - 1) / kBlockSide;
+    block_rows_ = complete ? (light.height + kBlockSide - 1) / kBlockSide : 0;
+    blocks_.assign(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_),
+                   0.0F);
     parallel_for(parts, [&](std::size_t part, int) {
-        Bin* bins = parts_.data() + part * kBins;
+        Bin* bins = parts_.data() + part * part_size;
         std::vector<float> largest(static_cast<std::size_t>(light.width));
         std::vector<float> energy(largest.size());
         const int first = static_cast<int>(part) * kRowsPerPart;
@@ -72,9 +79,20 @@ void BrightnessHistogram::measure(const ConstImageView& light, const float* weig
             largest_channel_row(light, y, largest.data());
             energy_row(light, weights, y, energy.data());
             for (std::size_t x = 0; x < largest.size(); ++x) {
-                Bin& bin = bins[bin_of(largest[x])];
+                Bin& bin = bins[bin_of(largest[x]) * kLanes + x % kLanes];
                 bin.energy += static_cast<double>(energy[x]);
                 bin.pixels += 1;
+            }
+            if (!complete) continue;
+            float* blocks =
+                blocks_.data() + static_cast<std::ptrdiff_t>(y / kBlockSide) * block_columns_;
+            for (int block = 0; block < block_columns_; ++block) {
+                const int x0 = block * kBlockSide;
+                const int x1 = std::min(light.width, x0 + kBlockSide);
+                for (int x = x0; x < x1; ++x) {
+                    const float value = largest[static_cast<std::size_t>(x)];
+                    blocks[block] = value > blocks[block] ? value : blocks[block];
+                }
             }
         }
     });
@@ -82,11 +100,27 @@ void BrightnessHistogram::measure(const ConstImageView& light, const float* weig
     total_ = 0;
     for (std::size_t part = 0; part < parts; ++part) {
         for (std::size_t i = 0; i < kBins; ++i) {
-            bins_[i].energy += row_step * parts_[part * kBins + i].energy;
-            bins_[i].pixels += row_step * parts_[part * kBins + i].pixels;
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                const Bin& bin = parts_[part * part_size + i * kLanes + lane];
+                bins_[i].energy += row_step * bin.energy;
+                bins_[i].pixels += row_step * bin.pixels;
+            }
         }
     }
     for (const Bin& bin : bins_) total_ += bin.energy;
+}
+
+bool BrightnessHistogram::may_be_above(float limit, int x0, int y0, int x1, int y1) const noexcept {
+    if (blocks_.empty()) return true;
+    const int last_column = std::min(block_columns_ - 1, (x1 - 1) / kBlockSide);
+    const int last_row = std::min(block_rows_ - 1, (y1 - 1) / kBlockSide);
+    for (int row = std::max(0, y0) / kBlockSide; row <= last_row; ++row) {
+        const float* blocks = blocks_.data() + static_cast<std::ptrdiff_t>(row) * block_columns_;
+        for (int column = std::max(0, x0) / kBlockSide; column <= last_column; ++column) {
+            if (blocks[column] > limit) return true;
+        }
+    }
+    return false;
 }
 
 float BrightnessHistogram::dim_limit(double share) const {

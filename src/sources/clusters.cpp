@@ -13,6 +13,7 @@
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "aureole/sources/brightness.h"
+#include "aureole/sources/brightness_histogram.h"
 #include "sources/cluster_cell.h"
 
 namespace aureole::sources {
@@ -168,6 +169,19 @@ std::vector<char> bright_blocks(const ConstImageView& light, int y0,
     return bright;
 }
 
+std::vector<char> bright_blocks(const BrightnessHistogram& measured, int width, int y0,
+                                const ClusterOptions& options) {
+    const int side = options.max_side;
+    std::vector<char> bright(static_cast<std::size_t>((width + side - 1) / side), 0);
+    for (std::size_t block = 0; block < bright.size(); ++block) {
+        const int x0 = static_cast<int>(block) * side;
+        if (measured.may_be_above(options.dim_limit, x0, y0, x0 + side, y0 + side)) {
+            bright[block] = 1;
+        }
+    }
+    return bright;
+}
+
 // Sum of |light| * weight over the channels of rows [first, end).
 double strip_energy(const ConstImageView& light, const float* weights, int first, int end) {
     std::array<double, 4> sums = {};  // independent, so that additions overlap
@@ -190,7 +204,8 @@ double strip_energy(const ConstImageView& light, const float* weights, int first
 }  // namespace
 
 Clusters find_clusters(const ConstImageView& light, const float* weights,
-                       const KernelRoughness& roughness, const ClusterOptions& options) {
+                       const KernelRoughness& roughness, const ClusterOptions& options,
+                       const BrightnessHistogram* measured) {
     check(light, options);
     const int side = options.max_side;
     const int columns = (light.width + side - 1) / side;
@@ -198,13 +213,17 @@ Clusters find_clusters(const ConstImageView& light, const float* weights,
     std::vector<Clusters> found(static_cast<std::size_t>(rows));
     parallel_for(found.size(), [&](std::size_t row, int) {
         const int y0 = static_cast<int>(row) * side;
-        const std::vector<char> bright = bright_blocks(light, y0, options);
+        const std::vector<char> bright = measured == nullptr
+                                             ? bright_blocks(light, y0, options)
+                                             : bright_blocks(*measured, light.width, y0, options);
+        if (measured != nullptr && std::count(bright.begin(), bright.end(), 1) == 0) return;
         const auto search = std::make_unique<BlockSearch>(roughness, options);
         for (int column = 0; column < columns; ++column) {
             if (bright[static_cast<std::size_t>(column)] == 0) continue;
             search->load(light, weights, column * side, y0);
             search->search(found[row]);
         }
+        if (measured != nullptr) return;
         found[row].energy_left =
             strip_energy(light, weights, y0, std::min(light.height, y0 + side)) - found[row].energy;
     });
@@ -216,6 +235,7 @@ Clusters find_clusters(const ConstImageView& light, const float* weights,
         all.energy_left += row.energy_left;
         all.error_bound += row.error_bound;
     }
+    if (measured != nullptr) all.energy_left = std::max(0.0, measured->energy() - all.energy);
     return all;
 }
 

@@ -1,5 +1,5 @@
 // How much of a picture's energy, and how many of its pixels, lie at which brightness: what a limit
-// between light that is drawn and light that is not would leave on either side.
+// between light that is drawn and light that is not would leave on either side; and where light is.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +22,11 @@ class BrightnessHistogram {
 
     double energy() const { return total_; }
 
+    // Whether a pixel of columns [x0, x1) and rows [y0, y1), which may lie outside the picture, may
+    // be above a limit, to blocks of kBlockSide pixels; always if not all rows were looked at.
+    static constexpr int kBlockSide = 16;
+    bool may_be_above(float limit, int x0, int y0, int x1, int y1) const noexcept;
+
     // The largest value such that pixels none of whose channels exceeds it hold at most `share` of
     // the energy, to within 5 % of the value, never above it. Throws InvalidArgument unless `share`
     // is in [0, 1].
@@ -39,6 +44,9 @@ class BrightnessHistogram {
     std::vector<Bin> bins_;
     std::vector<Bin> parts_;  // of fixed groups of rows, one after another
     double total_ = 0;
+    std::vector<float> blocks_;  // their brightest pixels; empty if not all rows were looked at
+    int block_columns_ = 0;
+    int block_rows_ = 0;
 };
 
 }  // namespace aureole::sources

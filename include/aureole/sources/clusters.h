@@ -31,6 +31,8 @@
 
 namespace aureole::sources {
 
+class BrightnessHistogram;
+
 // Sums over a kernel of |k| and of |its differences|, the largest of its channels.
 struct KernelRoughness {
     double sum = 1;           // |k(x, y)|; 1 for a kernel that is not negative and conserves energy
@@ -96,9 +98,12 @@ struct Clusters {
 // `light`: 1 or 3 channels, finite; `weights`: null, or width * height factors (relative solid
 // angles) by which pixels are multiplied to give energy. Negative light counts with its amount in
 // all sums and bounds, and may be in clusters. The same clusters for any number of threads.
+// `measured`: null, or all of the same light with the same weights: dark parts are then not looked
+// at again.
 // Throws InvalidArgument for an empty picture, other channel counts, options out of range.
 Clusters find_clusters(const ConstImageView& light, const float* weights,
-                       const KernelRoughness& roughness, const ClusterOptions& options = {});
+                       const KernelRoughness& roughness, const ClusterOptions& options = {},
+                       const BrightnessHistogram* measured = nullptr);
 
 // The largest value such that pixels none of whose channels exceeds it hold at most `share` of the
 // energy (sum of |light| * weight over channels), to within 5 % of the value, never above it:
