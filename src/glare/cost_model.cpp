@@ -21,9 +21,9 @@ constexpr double kPixels = double{kWidth} * kHeight;
 
 // The least of a few: what else the machine does only adds.
 template <class Body>
-double least_seconds(const Body& body) {
+double least_seconds(int rounds, const Body& body) {
     double least = INFINITY;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < rounds; ++round) {
         const double start = clock_seconds();
         body();
         least = std::min(least, clock_seconds() - start);
@@ -73,7 +73,7 @@ struct Drawing {
 Drawing drawing_of(SpriteLayer& layer, double fraction, std::vector<Buffer>& scratch) {
     Drawing drawing;
     drawing.work = layer.make(clusters_in_grid(fraction), 0).work;
-    drawing.seconds = least_seconds([&] {
+    drawing.seconds = least_seconds(kRounds, [&] {
         parallel_for(layer.tiles().size(), [&](std::size_t i, int worker) {
             layer.draw(i, layer.tiles().cleared_tile(
                               i, 3, scratch[static_cast<std::size_t>(worker)].data()));
@@ -95,7 +95,7 @@ void measure_drawing(MachineSpeed& speed) {
     const Drawing none = [&] {
         Drawing drawing;
         large.make({}, 0);
-        drawing.seconds = least_seconds([&] {
+        drawing.seconds = least_seconds(kRounds, [&] {
             parallel_for(large.tiles().size(), [&](std::size_t i, int worker) {
                 large.draw(i, large.tiles().cleared_tile(
                                   i, 3, scratch[static_cast<std::size_t>(worker)].data()));
@@ -122,34 +122,26 @@ void measure_painting(MachineSpeed& speed) {
     fill(light, 0.25F);
     fill(out, 0);
     sources::BrightnessHistogram histogram;
-    speed.histogram = least_seconds([&] { histogram.measure(light, nullptr); }) / kPixels;
-    speed.clusters = least_seconds([&] { painter.plan(light, nullptr, histogram); }) / kPixels;
-    speed.tile = least_seconds([&] { painter.draw(light, out, nullptr, histogram); }) / kPixels;
+    speed.histogram = least_seconds(kRounds, [&] { histogram.measure(light, nullptr); }) / kPixels;
+    painter.plan(light, nullptr, histogram);
+    speed.tile =
+        least_seconds(kRounds, [&] { painter.draw(light, out, nullptr, histogram); }) / kPixels;
     // Pixels alone, in one block of three.
-    double bright = 0;
     for (int y = 0; y < kHeight; y += 4) {
         for (int x = (y / 16 % 3) * 16; x < kWidth; x += 48) {
             for (int c = 0; c < 3; ++c) light.at(x, y, c) = 1;
-            ++bright;
         }
     }
     histogram.measure(light, nullptr);
     SpritePainter::Plan plan;
-    const double planning = least_seconds([&] { plan = painter.plan(light, nullptr, histogram); });
-    speed.search = std::max(0.0, planning - kPixels * speed.clusters) / bright;
-    const double drawing = least_seconds([&] { painter.draw(light, out, nullptr, histogram); });
+    const double planning =
+        least_seconds(kRounds, [&] { plan = painter.plan(light, nullptr, histogram); });
+    speed.search = planning / histogram.blocks_above(0.5F);
+    const double drawing =
+        least_seconds(kRounds, [&] { painter.draw(light, out, nullptr, histogram); });
     speed.core =
         std::max(0.0, drawing - kPixels * speed.tile - drawing_seconds(speed, plan.work, 3)) /
         plan.core_pixels;
-}
-
-void measure_transforms(MachineSpeed& speed) {
-    constexpr int kRadius = 200;
-    fourier::Convolver convolver(kWidth, kHeight, 3, wide_kernel(kRadius));
-    Image light(kWidth, kHeight, 3);
-    fill(light, 1);
-    speed.transform =
-        least_seconds([&] { convolver.run(light, light); }) / transform_work(convolver);
 }
 
 void measure_far(MachineSpeed& speed) {
@@ -168,13 +160,14 @@ void measure_far(MachineSpeed& speed) {
     std::vector<Buffer> scratch(static_cast<std::size_t>(max_workers()));
     for (Buffer& buffer : scratch) buffer = Buffer(3 * SpriteTiles::kPlane);
     const SpriteTiles tiles(kWidth, kHeight);
-    speed.far = least_seconds([&] {
-                    far.draw();
-                    parallel_for(tiles.size(), [&](std::size_t i, int worker) {
-                        far.add_to(tiles.cleared_tile(
-                            i, 3, scratch[static_cast<std::size_t>(worker)].data()));
-                    });
-                }) /
+    speed.far = least_seconds(kRounds,
+                              [&] {
+                                  far.draw();
+                                  parallel_for(tiles.size(), [&](std::size_t i, int worker) {
+                                      far.add_to(tiles.cleared_tile(
+                                          i, 3, scratch[static_cast<std::size_t>(worker)].data()));
+                                  });
+                              }) /
                 kPixels;
 }
 
@@ -183,7 +176,6 @@ MachineSpeed measured() {
     measure_drawing(speed);
     measure_painting(speed);
     measure_far(speed);
-    measure_transforms(speed);
     return speed;
 }
 
@@ -203,15 +195,11 @@ const MachineSpeed& machine_speed() {
     return speeds.emplace(thread_count(), measured()).first->second;
 }
 
-double transform_work(const fourier::Convolver& convolver) {
-    const double across = convolver.padded_width();
-    const double down = convolver.padded_height();
-    return convolver.channels() * down *
-           (convolver.width() * std::log2(down) + across * std::log2(across));
-}
-
-double transform_seconds(const MachineSpeed& speed, const fourier::Convolver& convolver) {
-    return speed.transform * transform_work(convolver);
+double transform_seconds(fourier::Convolver& convolver) {
+    Image light(convolver.width(), convolver.height(), convolver.channels());
+    fill(light, 1);
+    constexpr int kRuns = 2;
+    return least_seconds(kRuns, [&] { convolver.run(light, light); });
 }
 
 double drawing_seconds(const MachineSpeed& speed, const SpriteWork& work, int channels) {

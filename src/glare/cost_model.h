@@ -8,10 +8,8 @@ namespace aureole::glare {
 
 // Seconds per unit of work, with the threads there are.
 struct MachineSpeed {
-    double transform = 0;  // transform_work()
     double histogram = 0;  // pixel of 3 channels looked at
-    double clusters = 0;   // pixel of 3 channels without bright ones
-    double search = 0;     // bright pixel of 3 channels
+    double search = 0;     // block of pixels (BrightnessHistogram) with bright ones
     double tile = 0;       // pixel of 3 channels drawn by nothing but its tile
     double far = 0;        // the same for what a far layer adds
     double core = 0;       // pixel of a core, 3 channels
@@ -24,11 +22,10 @@ struct MachineSpeed {
 // number of threads apart. To be called from several threads at once.
 const MachineSpeed& machine_speed();
 
-// The operations of a convolution, up to a factor: real columns to and fro, rows of half of the
-// frequencies to and fro.
-double transform_work(const fourier::Convolver& convolver);
+// Transforms are timed themselves: what they cost depends on sizes and caches in ways that no
+// formula tells. The less of two runs.
+double transform_seconds(fourier::Convolver& convolver);
 
-double transform_seconds(const MachineSpeed& speed, const fourier::Convolver& convolver);
 double drawing_seconds(const MachineSpeed& speed, const SpriteWork& work, int channels);
 
 // Seconds of a steady clock; only differences mean anything.

@@ -50,6 +50,7 @@ class Hybrid {
     void draw(const ConstImageView& light, const ImageView& out, const float* weights) noexcept;
 
     const fourier::Convolver& convolver() const { return *convolver_; }
+    fourier::Convolver& convolver() { return *convolver_; }
     // Whether there is something to plan: else the result has the same cost for all pictures.
     bool has_far() const { return far_.has_value(); }
     // Of the kernel's sum of |k|, what is cut off without a far layer.

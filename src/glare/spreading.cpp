@@ -47,7 +47,11 @@ Spreading::Spreading(int width, int height, int channels, const Image& kernel,
     if (asked_ == Method::kHybrid || automatic) {
         hybrid_.emplace(width, height, channels, kernel, options.cluster_error, far);
     }
-    if (automatic) speed_ = machine_speed();
+    if (automatic) {
+        speed_ = machine_speed();
+        fft_seconds_ = transform_seconds(*convolver_);
+        hybrid_fft_seconds_ = transform_seconds(hybrid_->convolver());
+    }
 }
 
 int Spreading::padded_width() const {
@@ -80,35 +84,47 @@ double Spreading::plan_sprites(const ConstImageView& light, const float* weights
 double Spreading::plan_hybrid(const ConstImageView& light, const float* weights) {
     hybrid_plan_ = hybrid_->plan(light, weights, histogram_);
     const double passes = hybrid_plan_.sprites > 0 ? pixels_ * speed_.far : 0;
-    return transform_seconds(speed_, hybrid_->convolver()) + channel_share_ * passes +
+    return hybrid_fft_seconds_ + channel_share_ * passes +
            drawing_seconds(speed_, hybrid_plan_.work, light.channels);
 }
 
-double Spreading::least_sprites_seconds(double bright) const {
-    const double layers = painter_->has_far() ? 2 : 1;
-    const double passes =
-        pixels_ * (layers * speed_.clusters + speed_.tile + (painter_->has_far() ? speed_.far : 0));
-    const double side = painter_->options().clusters.max_side;
-    const double core = 2 * painter_->core_radius() + 1;
-    const double per_light =
-        layers * speed_.search + speed_.core * core * core + speed_.row * core / (side * side);
-    return channel_share_ * (passes + bright * per_light);
+Spreading::Bright Spreading::bright_above(float limit) const {
+    Bright bright;
+    bright.pixels = histogram_.pixels_above(limit);
+    constexpr double kBlock = sources::BrightnessHistogram::kBlockSide;
+    bright.blocks = std::max(histogram_.blocks_above(limit), bright.pixels / (kBlock * kBlock));
+    return bright;
 }
 
-double Spreading::least_hybrid_seconds(double bright) const {
-    const double passes = pixels_ * (speed_.clusters + speed_.far);
-    return transform_seconds(speed_, hybrid_->convolver()) +
-           channel_share_ * (passes + bright * speed_.search);
+double Spreading::least_sprites_seconds(const Bright& bright) const {
+    const bool far = painter_->has_far();
+    const double passes = pixels_ * (speed_.tile + (far ? speed_.far : 0));
+    const double side = 2 * painter_->core_radius() + 1;
+    return channel_share_ * (passes + bright.blocks * speed_.search * (far ? 2 : 1) +
+                             bright.pixels * speed_.core * side * side);
+}
+
+double Spreading::least_hybrid_seconds(const Bright& bright) const {
+    return hybrid_fft_seconds_ +
+           channel_share_ * (pixels_ * speed_.far + bright.blocks * speed_.search);
+}
+
+bool Spreading::hopeless(double seconds) const {
+    if (least_sprites_seconds(bright_above(painter_->dim_limit(histogram_))) < seconds) {
+        return false;
+    }
+    return !hybrid_->has_far() ||
+           least_hybrid_seconds(bright_above(hybrid_->dim_limit(histogram_))) >= seconds;
 }
 
 Method Spreading::choose(const ConstImageView& light, const float* weights) {
     const double start = clock_seconds();
     for (auto& c : report_.candidates) c.predicted_seconds = 0;
-    double best = transform_seconds(speed_, *convolver_);
+    double best = fft_seconds_;
     Method method = Method::kFft;
     predict(method, best);
     if (!hybrid_->has_far()) {
-        const double seconds = transform_seconds(speed_, hybrid_->convolver());
+        const double seconds = hybrid_fft_seconds_;
         predict(Method::kHybrid, seconds);
         if (seconds < best) {
             best = seconds;
@@ -116,30 +132,23 @@ Method Spreading::choose(const ConstImageView& light, const float* weights) {
         }
     }
     const double look = channel_share_ * speed_.histogram * pixels_;
-    const auto hopeless = [&](double bright_near, double bright_far, double limit) {
-        return least_sprites_seconds(bright_near) >= limit &&
-               (!hybrid_->has_far() || least_hybrid_seconds(bright_far) >= limit);
-    };
-    const auto hopeless_at = [&](double limit) {
-        return hopeless(
-            histogram_.pixels_above(painter_->dim_limit(histogram_)),
-            hybrid_->has_far() ? histogram_.pixels_above(hybrid_->dim_limit(histogram_)) : 0,
-            limit);
-    };
     report_.reason = Reason::kNoGain;
-    if (hopeless(0, 0, best - look)) return method;
+    if (least_sprites_seconds({}) >= best - look &&
+        (!hybrid_->has_far() || least_hybrid_seconds({}) >= best - look)) {
+        return method;
+    }
     report_.reason = Reason::kSample;
     if (look > kCheapLook * best) {
         histogram_.measure(light, weights, kRowStep);
-        if (hopeless_at(kSureOfSample * best)) return method;
+        if (hopeless(kSureOfSample * best)) return method;
     }
     report_.reason = Reason::kHistogram;
     histogram_.measure(light, weights);
-    if (hopeless_at(best)) return method;
+    if (hopeless(best)) return method;
     report_.reason = Reason::kPredicted;
     // Once planned, planning is spent: what is left to do decides.
     if (hybrid_->has_far() &&
-        least_hybrid_seconds(histogram_.pixels_above(hybrid_->dim_limit(histogram_))) < best) {
+        least_hybrid_seconds(bright_above(hybrid_->dim_limit(histogram_))) < best) {
         const double seconds = plan_hybrid(light, weights);
         predict(Method::kHybrid, clock_seconds() - start + seconds);
         if (seconds < best) {
@@ -148,7 +157,7 @@ Method Spreading::choose(const ConstImageView& light, const float* weights) {
         }
     }
     const double before_sprites = clock_seconds();
-    if (least_sprites_seconds(histogram_.pixels_above(painter_->dim_limit(histogram_))) < best) {
+    if (least_sprites_seconds(bright_above(painter_->dim_limit(histogram_))) < best) {
         const double seconds = plan_sprites(light, weights);
         predict(Method::kSprites, look + clock_seconds() - before_sprites + seconds);
         if (seconds < best) {

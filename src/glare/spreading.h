@@ -32,9 +32,16 @@ class Spreading {
     // Plans; returns the seconds that drawing will take.
     double plan_sprites(const ConstImageView& light, const float* weights);
     double plan_hybrid(const ConstImageView& light, const float* weights);
-    // Seconds that are spent whatever the lights are, if `bright` pixels turn out to be bright.
-    double least_sprites_seconds(double bright) const;
-    double least_hybrid_seconds(double bright) const;
+    // Seconds that are spent at least, wherever the light is, looking not included.
+    struct Bright {
+        double pixels = 0;
+        double blocks = 0;  // at least
+    };
+    Bright bright_above(float limit) const;
+    double least_sprites_seconds(const Bright& bright) const;
+    double least_hybrid_seconds(const Bright& bright) const;
+    // Whether neither sprites nor a far layer can be done in that time; with what histogram_ knows.
+    bool hopeless(double seconds) const;
     void predict(Method method, double seconds);
     void report_plan(double energy, double error_bound, double energy_cut, std::size_t sprites);
 
@@ -47,7 +54,10 @@ class Spreading {
     std::optional<SpritePainter> painter_;
     std::optional<Hybrid> hybrid_;
     sources::BrightnessHistogram histogram_;
+    // kAuto: what costs how much.
     MachineSpeed speed_;
+    double fft_seconds_ = 0;
+    double hybrid_fft_seconds_ = 0;
     SpritePainter::Plan sprites_plan_;
     Hybrid::Plan hybrid_plan_;
     Method asked_;

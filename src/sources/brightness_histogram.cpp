@@ -123,6 +123,11 @@ bool BrightnessHistogram::may_be_above(float limit, int x0, int y0, int x1, int 
     return false;
 }
 
+double BrightnessHistogram::blocks_above(float limit) const noexcept {
+    return static_cast<double>(std::count_if(blocks_.begin(), blocks_.end(),
+                                             [limit](float value) { return value > limit; }));
+}
+
 float BrightnessHistogram::dim_limit(double share) const {
     if (!(share >= 0 && share <= 1)) {
         throw InvalidArgument("share", fmt::format("{}", share), "must be in [0, 1]");

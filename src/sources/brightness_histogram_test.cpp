@@ -82,6 +82,23 @@ TEST(BrightnessHistogram, OfDarknessHasNothingAboveItsLimit) {
     EXPECT_EQ(histogram.energy(), 0);
 }
 
+TEST(BrightnessHistogram, KnowsWhereLightIs) {
+    Image image(70, 50, 1);
+    image.at(17, 33, 0) = -2;
+    image.at(69, 49, 0) = 1;
+    BrightnessHistogram histogram;
+    histogram.measure(image, nullptr);
+    EXPECT_EQ(histogram.blocks_above(1.5F), 1);
+    EXPECT_EQ(histogram.blocks_above(0.5F), 2);
+    EXPECT_TRUE(histogram.may_be_above(1.5F, -5, -5, 18, 34));
+    EXPECT_TRUE(histogram.may_be_above(1.5F, 31, 47, 32, 48));
+    EXPECT_FALSE(histogram.may_be_above(1.5F, 0, 0, 16, 50));
+    EXPECT_FALSE(histogram.may_be_above(1.5F, 32, 0, 200, 200));
+    EXPECT_TRUE(histogram.may_be_above(0.5F, 32, 0, 200, 200));
+    histogram.measure(image, nullptr, 2);
+    EXPECT_TRUE(histogram.may_be_above(5, 0, 0, 1, 1));
+}
+
 TEST(BrightnessHistogram, OfSomeRowsEstimatesAll) {
     const Image image = noise(400, 301);
     BrightnessHistogram all;

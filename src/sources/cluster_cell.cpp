@@ -1,6 +1,7 @@
 #include "sources/cluster_cell.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -9,9 +10,12 @@ namespace {
 
 template <class Body>
 void for_each_bright_pixel(const BlockEnergies& block, const Cell& cell, const Body& body) {
+    const std::uint64_t all = ~std::uint64_t{0} >> (BlockEnergies::kSide - cell.side) << cell.x;
     for (int y = cell.y; y < cell.y + cell.side; ++y) {
-        for (int x = cell.x; x < cell.x + cell.side; ++x) {
-            if (block.bright[BlockEnergies::index(x, y)]) body(x, y, BlockEnergies::index(x, y));
+        std::uint64_t row = block.bright[static_cast<std::size_t>(y)] & all;
+        for (; row != 0; row &= row - 1) {
+            const int x = std::countr_zero(row);
+            body(x, y, BlockEnergies::index(x, y));
         }
     }
 }

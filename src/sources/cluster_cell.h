@@ -2,18 +2,21 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "aureole/sources/clusters.h"
 
 namespace aureole::sources {
 
 // The energies of a block of up to kMaxClusterSide x kMaxClusterSide pixels: light times weight
-// where it is bright, 0 elsewhere.
+// where it is bright; elsewhere they are not read.
 struct BlockEnergies {
     static constexpr int kSide = kMaxClusterSide;
     int channels = 3;
     std::array<std::array<float, kSide * kSide>, 3> energy = {};
-    std::array<bool, kSide* kSide> bright = {};
+    std::array<std::uint64_t, kSide> bright = {};  // per row, bit x for column x
+    static_assert(kSide == 64);
 
     static constexpr std::size_t index(int x, int y) {
         return static_cast<std::size_t>(y * kSide + x);

@@ -57,30 +57,36 @@ class BlockSearch {
         x0_ = x0;
         y0_ = y0;
         block_.channels = light.channels;
-        for (int y = 0; y < options_.max_side; ++y) {
-            for (int x = 0; x < options_.max_side; ++x) load_pixel(light, weights, x, y);
-        }
+        for (int y = 0; y < options_.max_side; ++y) load_row(light, weights, y);
     }
 
     void search(Clusters& found) { search({0, 0, options_.max_side}, found); }
 
   private:
-    void load_pixel(const ConstImageView& light, const float* weights, int x, int y) {
-        const std::size_t i = BlockEnergies::index(x, y);
-        block_.bright[i] = false;
-        if (x0_ + x >= light.width || y0_ + y >= light.height) return;
-        const float weight = weights == nullptr
-                                 ? 1.0F
-                                 : weights[static_cast<std::size_t>(y0_ + y) *
-                                               static_cast<std::size_t>(light.width) +
-                                           static_cast<std::size_t>(x0_ + x)];
-        bool bright = false;
-        for (int c = 0; c < light.channels; ++c) {
-            const float value = light.at(x0_ + x, y0_ + y, c);
-            bright = bright || std::abs(value) > options_.dim_limit;
-            block_.energy[static_cast<std::size_t>(c)][i] = value * weight;
+    void load_row(const ConstImageView& light, const float* weights, int y) {
+        std::uint64_t& bright = block_.bright[static_cast<std::size_t>(y)];
+        bright = 0;
+        if (y0_ + y >= light.height) return;
+        ConstImageView part = light;
+        part.data += light.offset(x0_, 0, 0);
+        part.width = std::min(options_.max_side, light.width - x0_);
+        std::array<float, kMaxClusterSide> largest;
+        largest_channel_row(part, y0_ + y, largest.data());
+        if (!any_above(largest.data(), part.width, options_.dim_limit)) return;
+        const float* row = weights == nullptr ? nullptr
+                                              : weights +
+                                                    static_cast<std::size_t>(y0_ + y) *
+                                                        static_cast<std::size_t>(light.width) +
+                                                    x0_;
+        for (int x = 0; x < part.width; ++x) {
+            if (!(largest[static_cast<std::size_t>(x)] > options_.dim_limit)) continue;
+            bright |= std::uint64_t{1} << static_cast<unsigned>(x);
+            const float weight = row == nullptr ? 1.0F : row[x];
+            for (int c = 0; c < light.channels; ++c) {
+                block_.energy[static_cast<std::size_t>(c)][BlockEnergies::index(x, y)] =
+                    light.at(x0_ + x, y0_ + y, c) * weight;
+            }
         }
-        block_.bright[i] = bright;
     }
 
     void search(const Cell& cell, Clusters& found) {

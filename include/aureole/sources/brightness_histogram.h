@@ -26,6 +26,8 @@ class BrightnessHistogram {
     // be above a limit, to blocks of kBlockSide pixels; always if not all rows were looked at.
     static constexpr int kBlockSide = 16;
     bool may_be_above(float limit, int x0, int y0, int x1, int y1) const noexcept;
+    // Such blocks with a pixel above the limit; 0 if not all rows were looked at.
+    double blocks_above(float limit) const noexcept;
 
     // The largest value such that pixels none of whose channels exceeds it hold at most `share` of
     // the energy, to within 5 % of the value, never above it. Throws InvalidArgument unless `share`
