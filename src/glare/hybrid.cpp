@@ -29,18 +29,9 @@ double needed_pixels(int width, int height, const ConstImageView& kernel) {
 
 Crop crop_of(const ConstImageView& kernel, double share) {
     const KernelProfile profile(kernel);
-    int low = 0;
-    int high = profile.end();
     // The square of this radius holds all that is less than radius + 1 away.
-    while (low < high) {
-        const int middle = low + (high - low) / 2;
-        if (profile.beyond(middle + 1) <= share) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    return {low, profile.beyond(low + 1)};
+    const int radius = std::max(0, profile.radius_leaving(share) - 1);
+    return {radius, profile.beyond(radius + 1)};
 }
 
 ConstImageView cropped(const ConstImageView& kernel, int radius) {

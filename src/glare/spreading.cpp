@@ -100,7 +100,10 @@ double Spreading::least_sprites_seconds(const Bright& bright) const {
     const bool far = painter_->has_far();
     const double passes = pixels_ * (speed_.tile + (far ? speed_.far : 0));
     const double side = 2 * painter_->core_radius() + 1;
-    return channel_share_ * (passes + bright.blocks * speed_.search * (far ? 2 : 1) +
+    // One sprite for each block with light: a guess, and a low one but for a few bright among many
+    // dim ones.
+    const double sprites = bright.blocks * painter_->typical_area() * speed_.one_tap;
+    return channel_share_ * (passes + sprites + bright.blocks * speed_.search * (far ? 2 : 1) +
                              bright.pixels * speed_.core * side * side);
 }
 

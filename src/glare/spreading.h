@@ -32,7 +32,7 @@ class Spreading {
     // Plans; returns the seconds that drawing will take.
     double plan_sprites(const ConstImageView& light, const float* weights);
     double plan_hybrid(const ConstImageView& light, const float* weights);
-    // Seconds that are spent at least, wherever the light is, looking not included.
+    // Seconds that are spent at least, or most likely, wherever the light is; looking not included.
     struct Bright {
         double pixels = 0;
         double blocks = 0;  // at least

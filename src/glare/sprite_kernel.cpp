@@ -114,6 +114,12 @@ int KernelProfile::radius_below(double value) const {
     return static_cast<int>(first - largest_.begin());
 }
 
+int KernelProfile::radius_leaving(double sum) const {
+    const auto first = std::partition_point(beyond_.begin(), beyond_.end(),
+                                            [sum](double beyond) { return beyond > sum; });
+    return static_cast<int>(first - beyond_.begin());
+}
+
 SplitKernel split_kernel(const ConstImageView& kernel, int core_radius) {
     SplitKernel split;
     split.smooth = copy(kernel);

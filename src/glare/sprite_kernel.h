@@ -43,6 +43,8 @@ class KernelProfile {
     double beyond(int radius) const;
     // The least radius from which on no |k| exceeds `value`.
     int radius_below(double value) const;
+    // The least radius with at most `sum` beyond it.
+    int radius_leaving(double sum) const;
 
   private:
     std::vector<double> largest_;  // |k| from this distance on

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "aureole/base/parallel.h"
+#include "aureole/base/units.h"
 #include "aureole/sources/brightness.h"
 #include "glare/sprite_crop.h"
 
@@ -50,6 +51,9 @@ SpritePainter::SpritePainter(int width, int height, int channels, const ConstIma
     options_.clusters.cells = std::max(near.width, near.height) <= kLargestCellKernel;
     near_.emplace(width, height, channels, 1, 0, parts.smooth,
                   options_.clusters.cells ? options_.clusters.max_side : 1);
+    const double lost = kShares.crop * options.error / (far_ ? 2 : 1);
+    const double radius = near_->profile().radius_leaving(lost);
+    typical_area_ = std::min(kPi * radius * radius, static_cast<double>(near.width) * near.height);
     for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
 }
 

@@ -46,6 +46,8 @@ class SpritePainter {
 
     bool has_far() const { return far_.has_value(); }
     int core_radius() const { return core_radius_; }
+    // What a sprite of the near kernel covers if all have the same energy.
+    double typical_area() const { return typical_area_; }
     const SpriteOptions& options() const { return options_; }
 
   private:
@@ -72,6 +74,7 @@ class SpritePainter {
     sources::KernelRoughness roughness_;
     std::optional<SpriteLayer> near_;
     std::optional<FarLayer> far_;
+    double typical_area_ = 0;
     float dim_limit_ = 0;
     std::vector<Buffer> scratch_;
 };
