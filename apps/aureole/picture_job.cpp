@@ -14,9 +14,31 @@
 namespace aureole::app {
 namespace {
 
+using Reason = glare::MethodReport::Reason;
+
 bool same_view(const View& a, const View& b) {
     return a.width == b.width && a.height == b.height && a.projection == b.projection &&
            a.pitch_deg == b.pitch_deg && a.axis_x == b.axis_x && a.axis_y == b.axis_y;
+}
+
+// How the last picture was done; the choice where there was one, or an error.
+void report_method(const glare::MethodReport& report, nlohmann::ordered_json& json) {
+    json["method"] = glare::name_of(report.method);
+    if (report.method == glare::Method::kFft && report.reason == Reason::kAsked) return;
+    if (report.method == glare::Method::kDirect) return;
+    auto& choice = json["method_choice"];
+    choice = {{"reason", glare::name_of(report.reason)},
+              {"sprites", report.sprites},
+              {"error_bound", report.error_bound},
+              {"predicted_seconds", nlohmann::ordered_json::object()},
+              {"actual_seconds", nlohmann::ordered_json::object()}};
+    for (const auto& candidate : report.candidates) {
+        const std::string name(glare::name_of(candidate.method));
+        if (candidate.predicted_seconds > 0) {
+            choice["predicted_seconds"][name] = candidate.predicted_seconds;
+        }
+        if (candidate.actual_seconds > 0) choice["actual_seconds"][name] = candidate.actual_seconds;
+    }
 }
 
 }  // namespace
@@ -56,8 +78,17 @@ void PictureSettings::prepare(const std::vector<FrameFiles>& files) {
 
 void SpreadSettings::add_options(CLI::App& group) {
     one_of(group.add_option("--method", method,
-                            "fft; direct: the plain double sum, exact and slow; auto: fft"),
-           {"auto", "fft", "direct"})
+                            "fft: exact; direct: the plain double sum, exact and slow. To within "
+                            "--cluster-error: sprites: the kernel drawn for each light; hybrid: "
+                            "near by fft, far by sprites; auto: for each picture the fastest, "
+                            "which depends on the machine"),
+           {"fft", "direct", "sprites", "hybrid", "auto"})
+        ->capture_default_str();
+    number(group.add_option("--cluster-error", cluster_error,
+                            "Of sprites, hybrid and auto: largest sum of |difference| from fft, "
+                            "over the sum of the light"),
+           1e-6, 0.5)
+        ->type_name("E")
         ->capture_default_str();
     number(group.add_option("--threshold", threshold,
                             "Pixel values below make no glare (continuous ramp); 0 is physical"),
@@ -77,7 +108,8 @@ void SpreadSettings::add_options(CLI::App& group) {
 
 glare::GlareOptions SpreadSettings::options(bool matte) const {
     glare::GlareOptions options;
-    options.method = glare::method_from_name(method == "auto" ? "fft" : method);
+    options.method = glare::method_from_name(method);
+    options.cluster_error = cluster_error;
     options.threshold = threshold;
     options.gain = gain;
     options.matte = matte;
@@ -232,7 +264,7 @@ std::string PictureJob::report() {
         {"in", energy_.in}, {"out", energy_.out}, {"off_picture", energy_.off_picture}};
     if (energy_.from_surround != 0) json["energy"]["from_surround"] = energy_.from_surround;
     if (has_ghosts_) json["energy"]["ghosts"] = energy_.ghosts;
-    if (last.glare) json["method"] = spread_.method == "direct" ? "direct" : "fft";
+    if (last.glare) report_method(last.glare->last(), json);
     json["nonfinite_pixels"] = nonfinite_pixels_;
     auto& parameters = json["parameters"];
     parameters = {{"width", last.view.width},
@@ -248,6 +280,7 @@ std::string PictureJob::report() {
     if (last.glare) {
         parameters.update({{"padded_width", last.glare->padded_width()},
                            {"padded_height", last.glare->padded_height()},
+                           {"cluster_error", spread_.cluster_error},
                            {"threshold", spread_.threshold},
                            {"gain", spread_.gain},
                            {"surround", spread_.surround}});

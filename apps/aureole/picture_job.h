@@ -37,7 +37,8 @@ struct SpreadSettings {
     void add_options(CLI::App& group);
     glare::GlareOptions options(bool matte) const;
 
-    std::string method = "auto";
+    std::string method = "fft";
+    double cluster_error = 0.01;
     float threshold = 0;
     float gain = 1;
     std::string surround = "dark";

@@ -1,6 +1,7 @@
 #include "aureole/glare/glare.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -10,7 +11,9 @@
 #include "aureole/base/parallel.h"
 #include "aureole/color/rgb.h"
 #include "aureole/fourier/convolver.h"
+#include "aureole/sources/clusters.h"
 #include "aureole/sources/threshold.h"
+#include "glare/spreading.h"
 
 namespace aureole::glare {
 namespace {
@@ -28,6 +31,16 @@ void check(const View& view, int channels, const wave::Psf& psf, const GlareOpti
     }
     if (!(options.gain >= 0)) {
         throw InvalidArgument("gain", std::to_string(options.gain), "must be >= 0");
+    }
+    if (!(options.cluster_error > 0 && options.cluster_error < 1)) {
+        throw InvalidArgument("cluster error", std::to_string(options.cluster_error),
+                              "must be in (0, 1)");
+    }
+    if (options.cluster_side < 1 || options.cluster_side > sources::kMaxClusterSide ||
+        !std::has_single_bit(static_cast<unsigned>(options.cluster_side))) {
+        throw InvalidArgument(
+            "cluster side", std::to_string(options.cluster_side),
+            "must be a power of two up to " + std::to_string(sources::kMaxClusterSide));
     }
     if (psf.grid.projection != view.projection ||
         std::abs(psf.grid.pitch_deg / view.pitch_deg - 1) > 1e-3) {
@@ -56,7 +69,43 @@ Image luminance_kernel(const Image& kernel) {
 Method method_from_name(std::string_view name) {
     if (name == "fft") return Method::kFft;
     if (name == "direct") return Method::kDirect;
-    throw InvalidArgument("method", std::string(name), "must be fft or direct");
+    if (name == "sprites") return Method::kSprites;
+    if (name == "hybrid") return Method::kHybrid;
+    if (name == "auto") return Method::kAuto;
+    throw InvalidArgument("method", std::string(name),
+                          "must be fft, direct, sprites, hybrid or auto");
+}
+
+std::string_view name_of(Method method) noexcept {
+    switch (method) {
+        case Method::kFft:
+            return "fft";
+        case Method::kDirect:
+            return "direct";
+        case Method::kSprites:
+            return "sprites";
+        case Method::kHybrid:
+            return "hybrid";
+        case Method::kAuto:
+            break;
+    }
+    return "auto";
+}
+
+std::string_view name_of(MethodReport::Reason reason) noexcept {
+    switch (reason) {
+        case MethodReport::Reason::kAsked:
+            return "asked";
+        case MethodReport::Reason::kNoGain:
+            return "no-gain";
+        case MethodReport::Reason::kSample:
+            return "sample";
+        case MethodReport::Reason::kHistogram:
+            return "histogram";
+        case MethodReport::Reason::kPredicted:
+            break;
+    }
+    return "predicted";
 }
 
 Surround surround_from_name(std::string_view name) {
@@ -71,18 +120,15 @@ struct Glare::Impl {
         Image grey;
         if (channels == 1) grey = luminance_kernel(psf.kernel);
         const Image& kernel = channels == 1 ? grey : psf.kernel;
-        if (options.method == Method::kFft) {
-            convolver.emplace(view.width, view.height, channels, kernel);
-        } else {
-            direct_kernel = kernel;
-        }
+        spreading.emplace(view.width, view.height, channels, kernel, options);
         share = share_inside(view.width, view.height, kernel);
         if (view.projection == Projection::kPerspective) weights = relative_solid_angles(view);
         if (selective()) light = Image(view.width, view.height, channels);
-        if (selective() || options.method == Method::kDirect) {
+        // For those that cannot work in place.
+        if (selective() || spreading->needs_other_memory()) {
             spread = Image(view.width, view.height, channels);
         }
-        if (options.surround == Surround::kSame) measure_surround();
+        if (options.surround == Surround::kSame) measure_surround(kernel);
     }
 
     // The result is something else than in * PSF.
@@ -92,10 +138,12 @@ struct Glare::Impl {
     }
 
     // What a flat field lacks after glare is what its surroundings would have sent.
-    void measure_surround() {
+    void measure_surround(const Image& kernel) {
         for_each_row([&](int y, int c) { std::fill_n(light.row(y, c), view.width, 1.0F); });
         surround = Image(view.width, view.height, channels);
-        convolve(light, surround);
+        // Exactly, whatever the method for pictures is.
+        fourier::Convolver(view.width, view.height, channels, kernel)
+            .run(light, surround, weight_plane());
         for_each_row([&](int y, int c) {
             float* row = surround.row(y, c);
             for (int x = 0; x < view.width; ++x) row[x] = 1.0F - row[x];
@@ -113,12 +161,13 @@ struct Glare::Impl {
 
     const float* weight_plane() const { return weights.empty() ? nullptr : weights.plane(0); }
 
+    // `in` and `out` may be the same.
     void convolve(const ConstImageView& in, const ImageView& out) noexcept {
-        if (convolver) {
-            convolver->run(in, out, weight_plane());
+        if (in.data != out.data || !spreading->needs_other_memory()) {
+            spreading->run(in, out, weight_plane());
             return;
         }
-        fourier::convolve_directly(in, direct_kernel, spread, weight_plane());
+        spreading->run(in, spread, weight_plane());
         for_each_row([&](int y, int c) {
             for (int x = 0; x < view.width; ++x) out.at(x, y, c) = spread.at(x, y, c);
         });
@@ -171,9 +220,12 @@ struct Glare::Impl {
                     const float value = in.at(x, y, c);
                     sum.in += weight * value;
                     sum.out += weight * out.at(x, y, c);
-                    const double spreading = weight * options.gain * light_of(value, matte, pixel);
-                    sum.off_picture += spreading * (1.0 - share.at(x, y, c));
-                    sum.from_surround += spreading * from_surround(x, y, c);
+                    const double spreading_light =
+                        weight * options.gain * light_of(value, matte, pixel);
+                    sum.off_picture += spreading_light * (1.0 - share.at(x, y, c));
+                    // What was cut off, as its bound.
+                    sum.off_picture += std::abs(spreading_light) * spreading->last().energy_cut;
+                    sum.from_surround += spreading_light * from_surround(x, y, c);
                 }
             }
         });
@@ -190,8 +242,7 @@ struct Glare::Impl {
     View view;
     int channels;
     GlareOptions options;
-    std::optional<fourier::Convolver> convolver;
-    Image direct_kernel;
+    std::optional<Spreading> spreading;
     Image share;     // inside the picture, per source pixel and kernel channel
     Image weights;   // relative solid angles, perspective only
     Image light;     // what makes glare, if not everything does
@@ -214,11 +265,8 @@ Energy Glare::energy(const ConstImageView& in, const ConstImageView& out,
                      const float* matte) const {
     return impl_->energy(in, out, matte);
 }
-int Glare::padded_width() const noexcept {
-    return impl_->convolver ? impl_->convolver->padded_width() : impl_->view.width;
-}
-int Glare::padded_height() const noexcept {
-    return impl_->convolver ? impl_->convolver->padded_height() : impl_->view.height;
-}
+const MethodReport& Glare::last() const noexcept { return impl_->spreading->last(); }
+int Glare::padded_width() const noexcept { return impl_->spreading->padded_width(); }
+int Glare::padded_height() const noexcept { return impl_->spreading->padded_height(); }
 
 }  // namespace aureole::glare

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "program.h"
@@ -40,6 +42,45 @@ TEST_F(Applying, MethodsAgree) {
     EXPECT_LT(largest_difference(glare("--method fft"), glare("--method direct")), tolerance);
     EXPECT_LT(largest_difference(glare("--fov 90"), glare("--fov 90 --method direct")),
               4 * tolerance);
+}
+
+// Sum of |a - b| over the sum of |b|.
+double sum_of_differences(const Image& a, const Image& b) {
+    double difference = 0;
+    double sum = 0;
+    for (int c = 0; c < b.channels(); ++c) {
+        for (std::size_t i = 0; i < b.pixels(); ++i) {
+            difference += std::abs(static_cast<double>(a.plane(c)[i]) - b.plane(c)[i]);
+            sum += std::abs(static_cast<double>(b.plane(c)[i]));
+        }
+    }
+    return difference / sum;
+}
+
+TEST_F(Applying, ApproximateMethodsStayWithinTheErrorAskedFor) {
+    const Image exact = glare("--perspective off");
+    for (const std::string method : {"sprites", "hybrid", "auto"}) {
+        for (const double error : {0.05, 0.001}) {
+            const Outcome outcome =
+                run("glare in.exr -o out.exr --psf k.exr --perspective off --json --method " +
+                    method + " --cluster-error " + std::to_string(error));
+            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+            EXPECT_LE(sum_of_differences(read("out.exr").image(), exact), error) << method;
+            const auto json = nlohmann::json::parse(outcome.out);
+            EXPECT_LE(json["method_choice"]["error_bound"], error);
+            if (method != "auto") {
+                EXPECT_EQ(json["method"], method);
+                EXPECT_EQ(json["method_choice"]["reason"], "asked");
+            } else {
+                EXPECT_GT(json["method_choice"]["predicted_seconds"]["fft"], 0);
+            }
+            EXPECT_GT(json["method_choice"]["actual_seconds"][json["method"]], 0);
+            const auto& energy = json["energy"];
+            EXPECT_NEAR((energy["out"].get<double>() + energy["off_picture"].get<double>()) /
+                            energy["in"].get<double>(),
+                        1, error);
+        }
+    }
 }
 
 TEST_F(Applying, GlareLayerAndInputSumToTheComposite) {

@@ -14,7 +14,8 @@ namespace aureole::glare {
 struct Energy {
     double in = 0;
     double out = 0;
-    double off_picture = 0;    // scattered beyond the picture's border or a truncated kernel
+    double off_picture = 0;    // scattered beyond the picture's border or a truncated kernel, and
+                               // what approximate methods cut off
     double from_surround = 0;  // scattered in from beyond the border; 0 for Surround::kDark
 };
 

@@ -12,6 +12,8 @@
 // How far this shift-invariant form is from the exact sum over angles: docs/glare.md.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <string_view>
 
@@ -25,10 +27,19 @@ namespace aureole::glare {
 enum class Method {
     kFft,     // pruned Fourier transforms: cost independent of the kernel's content
     kDirect,  // the plain double sum: the oracle; for kernels of a few pixels
+    // To within GlareOptions::cluster_error:
+    kSprites,  // a kernel drawn for each light or cluster of lights (sprites.h): few lights, dim
+               // elsewhere
+    kHybrid,   // transforms with the near part of the kernel, sprites of its far part for the light
+               // that matters there; or just transforms with a kernel that ends within the error
+    kAuto,     // for each picture the one of kFft, kSprites, kHybrid that will be fastest: which
+               // one depends on timings, so that results vary within the error between machines
 };
 
-// The names used on the command line: fft, direct. Throws InvalidArgument for any other.
+// The names used on the command line: fft, direct, sprites, hybrid, auto. Throws InvalidArgument
+// for any other.
 Method method_from_name(std::string_view name);
+std::string_view name_of(Method method) noexcept;
 
 // What lies beyond the picture's border.
 enum class Surround {
@@ -52,7 +63,39 @@ struct GlareOptions {
     // Whether apply() will be given a matte.
     bool matte = false;
     Surround surround = Surround::kDark;
+    // kSprites, kHybrid, kAuto: the error that clusters of lights, ends of sprites and light left
+    // out may add up to: the sum over pixels and channels of solid angle times |difference| from
+    // kFft, over the sum of that times |light|. In (0, 1).
+    double cluster_error = 0.01;
+    // Side of the largest clusters, a power of two up to sources::kMaxClusterSide; 1: none (but for
+    // the far part of a large kernel).
+    int cluster_side = 16;
 };
+
+// How the last picture was done.
+struct MethodReport {
+    enum class Reason {
+        kAsked,      // no kAuto
+        kNoGain,     // whatever the picture, nothing else can be faster
+        kSample,     // some rows show too much light for sprites
+        kHistogram,  // the whole picture does
+        kPredicted,  // lights were looked for, and costs compared
+    };
+    struct Candidate {
+        Method method = Method::kFft;
+        double predicted_seconds = 0;  // kAuto only, looking included; 0: ruled out before
+        double actual_seconds = 0;     // when it was used last; 0: never
+    };
+    Method method = Method::kFft;
+    Reason reason = Reason::kAsked;
+    std::array<Candidate, 3> candidates = {Candidate{Method::kFft}, Candidate{Method::kSprites},
+                                           Candidate{Method::kHybrid}};
+    std::size_t sprites = 0;  // far ones included
+    // Both over the sum of solid angle times |light|.
+    double error_bound = 0;
+    double energy_cut = 0;  // at most, light that ended with sprites or a kernel's end
+};
+std::string_view name_of(MethodReport::Reason reason) noexcept;
 
 // Configured once per picture size, view and PSF; then applied as often as needed.
 class Glare {
@@ -60,7 +103,9 @@ class Glare {
     // `channels` is 3 (RGB) or 1 (grey: the luminance of the PSF). The kernel may have any size;
     // what lies beyond it counts as off the picture. The PSF is not kept.
     // Throws InvalidArgument for other channel counts, negative threshold or gain, and when the
-    // PSF was made for another pitch or projection than the view's (by more than 0.1 %).
+    // PSF was made for another pitch or projection than the view's (by more than 0.1 %), and for
+    // cluster_error and cluster_side out of range. The first kAuto of a process measures the
+    // machine for some 50 ms.
     Glare(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options = {});
     ~Glare();
     Glare(Glare&&) noexcept;
@@ -68,16 +113,21 @@ class Glare {
 
     // `in` and `out` have the view's size and the channels given; they may be the same memory.
     // `matte`: width * height factors, row-major; required if and only if options.matte.
-    // Allocates nothing; not to be run from two threads at once.
+    // Allocates nothing, except that kSprites, kHybrid and kAuto keep lists of lights, which grow
+    // to what the picture with the most of them needs; not to be run from two threads at once.
     void apply(const ConstImageView& in, const ImageView& out,
                const float* matte = nullptr) noexcept;
 
     // Accounts for a picture and the result that apply() gave for it. Off-picture energy is
-    // summed from the kernel itself (share_inside), not from the difference.
+    // summed from the kernel itself (share_inside), not from the difference; what the last apply()
+    // cut off is added as its bound, so that the balance holds to within error_bound.
     Energy energy(const ConstImageView& in, const ConstImageView& out,
                   const float* matte = nullptr) const;
 
-    // Size of the transforms, for reports; the picture's own for Method::kDirect.
+    const MethodReport& last() const noexcept;
+
+    // Size of the transforms, for reports: of kFft's for kAuto; the picture's own where there are
+    // none.
     int padded_width() const noexcept;
     int padded_height() const noexcept;
 

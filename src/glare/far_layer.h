@@ -1,0 +1,55 @@
+// The far part of a large kernel, drawn on its coarse raster and added to the picture between the
+// raster's nodes.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "aureole/base/buffer.h"
+#include "aureole/image/image.h"
+#include "aureole/sources/brightness_histogram.h"
+#include "glare/far_kernel.h"
+#include "glare/sprite_layer.h"
+
+namespace aureole::glare {
+
+class FarLayer {
+  public:
+    // For pictures of width x height x channels; the kernel is not kept.
+    FarLayer(int width, int height, int channels, const FarKernel& kernel);
+
+    // Of the raster: sum of |difference| per energy.
+    double error() const { return error_; }
+    // Of the energy, how much the far part holds at most: sum of |far|.
+    double share() const { return roughness_.sum; }
+
+    struct Plan {
+        std::size_t sprites = 0;
+        double bright_energy = 0;
+        double energy_left = 0;  // of pixels that are too dim
+        double error_bound = 0;  // without that of light left
+        double energy_cut = 0;
+        SpriteWork work;
+    };
+    // Finds the clusters of pixels above `dim_limit`, with an error of `cluster_error` of their
+    // energy, and ends their sprites where `most_lost` is lost in all.
+    Plan plan(const ConstImageView& light, const float* weights,
+              const sources::BrightnessHistogram& measured, float dim_limit, double cluster_error,
+              double most_lost);
+
+    // What was planned, on the raster.
+    void draw();
+    // And from the raster added to a tile of the picture.
+    void add_to(const SpriteTile& tile) const;
+
+  private:
+    int channels_;
+    int scale_;
+    double error_;
+    sources::KernelRoughness roughness_;
+    SpriteLayer layer_;
+    Image canvas_;
+    std::vector<Buffer> scratch_;
+};
+
+}  // namespace aureole::glare
