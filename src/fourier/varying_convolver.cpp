@@ -73,44 +73,69 @@ Support support(int node, int pixels, int nodes) {
     return {first, last - first + 1};
 }
 
-int largest_support(int pixels, int nodes) {
-    int largest = 0;
-    for (int n = 0; n < nodes; ++n) largest = std::max(largest, support(n, pixels, nodes).size);
-    return largest;
-}
-
 // One axis of the transforms of a part. Offsets of `reach` around the support, cyclically: nothing
 // falls back into the pixels wanted if the line holds support and both reaches, nor, wherever the
-// support lies, if it holds the picture and one (convolver.h).
+// support lies, if it holds the picture and one (convolver.h). Nodes at the border have half the
+// support of those within.
 struct Axis {
     Axis(int pixels_, int nodes_, int kernel_size)
         : pixels(pixels_),
           nodes(nodes_),
           centre(kernel_size / 2),
           reach(std::min(centre, pixels - 1)),
-          plan(padded(std::min(largest_support(pixels, nodes) + 2 * reach, pixels + reach))) {}
+          within(needed(nodes / 2)),
+          border(needed(0)) {
+        // Supports of nodes within differ by a pixel.
+        for (int n = 1; n < nodes - 1; ++n) {
+            largest = std::max(largest, support(n, pixels, nodes).size);
+            if (needed(n) > within.length) within = LinePlan(needed(n));
+        }
+        for (const int n : {0, nodes - 1}) {
+            largest = std::max(largest, support(n, pixels, nodes).size);
+            if (needed(n) > border.length) border = LinePlan(needed(n));
+        }
+    }
+
+    int needed(int node) const {
+        return padded(std::min(support(node, pixels, nodes).size + 2 * reach, pixels + reach));
+    }
+    const LinePlan& plan(int node) const {
+        return node == 0 || node == nodes - 1 ? border : within;
+    }
+    int longest() const { return std::max(within.length, border.length); }
 
     int pixels;
     int nodes;
     int centre;
     int reach;
-    LinePlan plan;
+    LinePlan within;
+    LinePlan border;
+    int largest = 0;  // support of a node
 };
 
 // Along one axis: where the source pixels of a node are, and where its light goes.
 struct Span {
     Span(const Axis& axis, int node)
-        : source(support(node, axis.pixels, axis.nodes)),
+        : plan(&axis.plan(node)),
+          source(support(node, axis.pixels, axis.nodes)),
           first(std::max(source.first - axis.reach, 0)),
           size(std::min(source.first + source.size + axis.reach, axis.pixels) - first),
           // Sample 0 of the kernel carries the first source pixel `reach` to the left of itself.
-          kernel_at((source.first - axis.reach - first + axis.plan.length) % axis.plan.length) {}
+          kernel_at((source.first - axis.reach - first + plan->length) % plan->length) {}
 
+    const LinePlan* plan;
     Support source;
     int first;
     int size;
     int kernel_at;
 };
+
+bool is_empty(const Image& kernel) {
+    const float* values = kernel.plane(0);
+    return std::all_of(values,
+                       values + kernel.pixels() * static_cast<std::size_t>(kernel.channels()),
+                       [](float value) { return value == 0; });
+}
 
 ConstImageView part_of(const ConstImageView& view, int x, int y, int width, int height) {
     ConstImageView result = view;
@@ -146,30 +171,35 @@ class PartConvolver {
           simd_(convolver_kernels()),
           x_(width, nodes.columns, nodes.kernels.front().width()),
           y_(height, nodes.rows, nodes.kernels.front().height()),
-          slabs_per_channel_(batches(y_.plan.length / 2 + 1, simd_.lanes)),
-          slab_columns_(batches(x_.plan.length, 2 * simd_.lanes) * 2 * simd_.lanes),
+          slab_columns_(batches(x_.longest(), 2 * simd_.lanes) * 2 * simd_.lanes),
           // One element more: equal strides of many slabs would compete for the same cache sets.
           slab_floats_(element() * static_cast<std::size_t>(slab_columns_ + 1)),
-          spectrum_floats_(element() * static_cast<std::size_t>(x_.plan.length)),
-          scratch_(element() * (static_cast<std::size_t>(x_.plan.length) +
-                                static_cast<std::size_t>(y_.plan.length + 1) *
+          spectrum_floats_(element() * static_cast<std::size_t>(x_.longest())),
+          scratch_(element() * (static_cast<std::size_t>(x_.longest()) +
+                                static_cast<std::size_t>(y_.longest() + 1) *
                                     (static_cast<std::size_t>(channels) + 1))),
-          spectrum_(spectrum_floats_ * slabs()),
-          slab_memory_(slab_floats_ * slabs()),
-          weights_(static_cast<std::size_t>(largest_support(width, nodes.columns)) *
-                   static_cast<std::size_t>(largest_support(height, nodes.rows))),
-          ones_(static_cast<std::size_t>(channels), 1.0F) {}
+          spectrum_(spectrum_floats_ * slabs(y_.longest())),
+          slab_memory_(slab_floats_ * slabs(y_.longest())),
+          weights_(static_cast<std::size_t>(x_.largest) * static_cast<std::size_t>(y_.largest)),
+          ones_(static_cast<std::size_t>(channels), 1.0F) {
+        for (const Image& kernel : nodes.kernels) empty_.push_back(is_empty(kernel) ? 1 : 0);
+    }
 
     void add(const ConstImageView& in, const float* weights, const ImageView& sum) noexcept {
         for (int j = 0; j < nodes_->rows; ++j) {
-            for (int i = 0; i < nodes_->columns; ++i) add_node(i, j, in, weights, sum);
+            for (int i = 0; i < nodes_->columns; ++i) {
+                const auto node = static_cast<std::size_t>(j * nodes_->columns + i);
+                if (empty_[node] == 0) add_node(i, j, nodes_->kernels[node], in, weights, sum);
+            }
         }
     }
 
   private:
     std::size_t element() const { return 2 * static_cast<std::size_t>(simd_.lanes); }
-    std::size_t slabs() const {
-        return static_cast<std::size_t>(slabs_per_channel_) * static_cast<std::size_t>(channels_);
+    int slabs_per_channel(int length) const { return batches(length / 2 + 1, simd_.lanes); }
+    std::size_t slabs(int length) const {
+        return static_cast<std::size_t>(slabs_per_channel(length)) *
+               static_cast<std::size_t>(channels_);
     }
     std::size_t column_batches(int columns) const {
         return static_cast<std::size_t>(batches(columns, 2 * simd_.lanes));
@@ -181,15 +211,21 @@ class PartConvolver {
                                            y_.centre - y_.reach, width, 2 * y_.reach + 1);
         // Column spectra of kernel and picture are both kept doubled; rows and columns unscaled.
         const float scale =
-            0.25F / (static_cast<float>(x_.plan.length) * static_cast<float>(y_.plan.length));
-        const ColumnPass columns{
-            &y_.plan,         y.kernel_at,       width, 0.0F, -1, nullptr, spectrum_.data(),
-            spectrum_floats_, slabs_per_channel_};
-        const RowPass rows{&x_.plan, width};
+            0.25F / (static_cast<float>(x.plan->length) * static_cast<float>(y.plan->length));
+        const ColumnPass columns{y.plan,
+                                 y.kernel_at,
+                                 width,
+                                 0.0F,
+                                 -1,
+                                 nullptr,
+                                 spectrum_.data(),
+                                 spectrum_floats_,
+                                 slabs_per_channel(y.plan->length)};
+        const RowPass rows{x.plan, width};
         parallel_for(column_batches(width), [&](std::size_t batch, int worker) {
             simd_.columns_in(columns, cut, static_cast<int>(batch), scratch_.of(worker));
         });
-        parallel_for(slabs(), [&](std::size_t g, int worker) {
+        parallel_for(slabs(y.plan->length), [&](std::size_t g, int worker) {
             simd_.spectrum_rows(rows, x.kernel_at, scale, spectrum_.data() + g * spectrum_floats_,
                                 scratch_.of(worker));
         });
@@ -212,16 +248,16 @@ class PartConvolver {
         });
     }
 
-    void add_node(int i, int j, const ConstImageView& in, const float* weights,
+    void add_node(int i, int j, const Image& kernel, const ConstImageView& in, const float* weights,
                   const ImageView& sum) noexcept {
         const Span x(x_, i);
         const Span y(y_, j);
-        transform_kernel(nodes_->kernels[static_cast<std::size_t>(j * nodes_->columns + i)], x, y);
+        transform_kernel(kernel, x, y);
         fill_weights(i, j, x, y, weights);
         const ConstImageView source =
             part_of(in, x.source.first, y.source.first, x.source.size, y.source.size);
         const ImageView target = part_of(sum, x.first, y.first, x.size, y.size);
-        ColumnPass columns{&y_.plan,
+        ColumnPass columns{y.plan,
                            0,
                            slab_columns_,
                            0.0F,
@@ -229,17 +265,17 @@ class PartConvolver {
                            weights_.data(),
                            slab_memory_.data(),
                            slab_floats_,
-                           slabs_per_channel_};
+                           slabs_per_channel(y.plan->length)};
         parallel_for(column_batches(x.source.size), [&](std::size_t batch, int worker) {
             simd_.columns_in(columns, source, static_cast<int>(batch), scratch_.of(worker));
         });
-        const RowPass rows{&x_.plan, std::max(x.size, x.source.size)};
+        const RowPass rows{x.plan, std::max(x.size, x.source.size)};
         // What follows the source pixels is zero to the end of the last batch that columns_out()
         // reads.
         const std::size_t filled = element() * static_cast<std::size_t>(x.source.size);
         const std::size_t read =
             element() * static_cast<std::size_t>(2 * simd_.lanes) * column_batches(rows.width);
-        parallel_for(slabs(), [&](std::size_t g, int worker) {
+        parallel_for(slabs(y.plan->length), [&](std::size_t g, int worker) {
             float* slab = slab_memory_.data() + g * slab_floats_;
             std::fill(slab + filled, slab + read, 0.0F);
             simd_.convolve_rows(rows, slab, spectrum_.data() + g * spectrum_floats_,
@@ -257,7 +293,6 @@ class PartConvolver {
     ConvolverKernels simd_;
     Axis x_;
     Axis y_;
-    int slabs_per_channel_;
     int slab_columns_;
     std::size_t slab_floats_;
     std::size_t spectrum_floats_;
@@ -266,6 +301,7 @@ class PartConvolver {
     Buffer slab_memory_;
     Buffer weights_;
     std::vector<float> ones_;
+    std::vector<char> empty_;  // nodes that send no light
 };
 
 struct VaryingConvolver::Impl {
