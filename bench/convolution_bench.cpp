@@ -10,6 +10,7 @@
 #include "aureole/fourier/convolver.h"
 #include "aureole/fourier/fft.h"
 #include "aureole/glare/glare.h"
+#include "aureole/glare/varying_glare.h"
 #include "aureole/image/view.h"
 #include "fftw_baseline.h"
 #include "simd_option.h"
@@ -70,6 +71,21 @@ void default_glare(benchmark::State& state) {
     for (auto _ : state) glare->apply(in, out);
 }
 
+// The same with streaks that vary over the field, as --field-varying on does it.
+void varying_glare(benchmark::State& state) {
+    wave::VaryingPsf psf;
+    psf.view = View::from_fov(kWidth, kHeight, 60, Projection::kPerspective);
+    psf.base.grid = wave::KernelGrid::full_reach(psf.view);
+    psf.base.kernel = noise(psf.base.grid.width, psf.base.grid.height, 3);
+    psf.parts.push_back({32, 18, std::vector<Image>(32 * 18, noise(65, 65, 3))});
+    psf.parts.push_back({9, 6, std::vector<Image>(9 * 6, noise(269, 269, 3))});
+    glare::VaryingGlare glare(3, psf);
+    const Image in = noise(kWidth, kHeight, 3);
+    Image out(kWidth, kHeight, 3);
+    glare.apply(in, out);
+    for (auto _ : state) glare.apply(in, out);
+}
+
 void fft_4096(benchmark::State& state) {
     constexpr int kSize = 4096;
     std::vector<float> re(std::size_t{kSize} * kSize);
@@ -103,6 +119,7 @@ void register_all() {
         add("aureole_rgb_kernel/" + name, aureole, kernel.width, kernel.height, 3);
     }
     add("default_glare/apply", default_glare);
+    add("varying_glare/apply", varying_glare);
     add("fftw/4096x4096", fftw_4096);
     add("aureole_fft/4096x4096", fft_4096);
 }

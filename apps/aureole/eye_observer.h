@@ -5,6 +5,7 @@
 #include <string>
 
 #include "aureole/eye/anatomy.h"
+#include "aureole/wave/varying_psf.h"
 #include "eye_options.h"
 #include "observer.h"
 #include "session.h"
@@ -20,24 +21,34 @@ enum class Metering {
 
 class EyeObserver : public Observer {
   public:
-    EyeObserver(const EyeOptions& eye, const ViewOptions& view, Metering metering, Session& session)
-        : options_(eye), view_(view), metering_(metering), session_(session) {}
+    // `field_spacing_deg`: between nodes at which streaks are computed; 0: the axis serves for all.
+    EyeObserver(const EyeOptions& eye, const ViewOptions& view, Metering metering,
+                double field_spacing_deg, Session& session)
+        : options_(eye),
+          view_(view),
+          metering_(metering),
+          field_spacing_deg_(field_spacing_deg),
+          session_(session) {}
 
     View view_of(const io::Picture& picture) override { return view_.view_of(picture, session_); }
     bool adapt(const io::Picture& picture) override;
     std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    std::optional<wave::VaryingPsf> varying_psf(const View& display, const View& data) override;
     void report(nlohmann::ordered_json& json) const override;
 
   private:
+    void measure_field(const wave::VaryingPsf& psf);
     double metered_cd_m2(const io::Picture& picture) const;
 
     const EyeOptions& options_;
     const ViewOptions& view_;
     Metering metering_;
+    double field_spacing_deg_;
     Session& session_;
     std::optional<double> metered_cd_m2_;
     double white_luminance_cd_m2_ = 0;
     eye::Eye eye_;
+    nlohmann::ordered_json field_report_;
 };
 
 class KernelObserver : public Observer {

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "aureole/base/error.h"
+#include "aureole/eye/field_psf.h"
 #include "camera_observer.h"
 #include "commands.h"
 #include "eye_observer.h"
@@ -34,6 +35,8 @@ struct GlareCommand {
     std::string preset = "physical";
     CLI::Option* preset_option = nullptr;
     std::string psf_file;
+    std::string field_varying = "off";
+    double field_spacing_deg = 0;  // 0: off
 };
 
 void GlareCommand::add_options(CLI::App& command) {
@@ -69,6 +72,13 @@ void GlareCommand::add_options(CLI::App& command) {
                     "Use this kernel (EXR of `aureole psf`, or any odd-sized picture) instead of "
                     "an eye's")
         ->type_name("FILE");
+    group
+        .add_option("--field-varying", field_varying,
+                    "on: streaks turn with the position of each light, as lashes 12 mm before the "
+                    "pupil do; DEG: on, computed every so many degrees (0.5 to 30; on: 2.2); off: "
+                    "those of the picture's axis everywhere")
+        ->type_name("off|on|DEG")
+        ->capture_default_str();
     spread.add_options(group);
     settings.add_options(group, command);
     eye.add_options_but_preset(command);
@@ -83,6 +93,24 @@ void GlareCommand::check() {
         if (!option.empty()) throw InvalidArgument(option + ": " + why);
     };
     view.check();
+    field_spacing_deg = field_varying == "on"    ? eye::FieldPsfOptions().spacing_deg
+                        : field_varying == "off" ? 0
+                                                 : given_number(field_varying).value_or(-1);
+    if (field_spacing_deg != 0) {
+        if (!(field_spacing_deg >= 0.5 && field_spacing_deg <= 30)) {
+            throw InvalidArgument("--field-varying", field_varying,
+                                  "must be off, on, or 0.5 to 30 (deg)");
+        }
+        const auto alone = [](const std::string& option) {
+            if (!option.empty()) {
+                throw InvalidArgument("--field-varying: cannot be combined with " + option);
+            }
+        };
+        alone(observer_name == "camera" ? "--observer camera" : "");
+        alone(psf_file.empty() ? "" : "--psf");
+        alone(settings.matte_file.empty() ? "" : "--matte");
+        alone(spread.first_selective());
+    }
     if (observer_name == "camera") {
         refuse(eye.first_given(), "is an option of the eye: leave it out with --observer camera");
         refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
@@ -116,7 +144,7 @@ std::unique_ptr<Observer> GlareCommand::observer() {
     }
     if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
     const Metering metering = frames.empty() ? Metering::kEachPicture : Metering::kFirst;
-    return std::make_unique<EyeObserver>(eye, view, metering, session);
+    return std::make_unique<EyeObserver>(eye, view, metering, field_spacing_deg, session);
 }
 
 void GlareCommand::run() {

@@ -8,6 +8,7 @@
 #include "aureole/image/view.h"
 #include "aureole/io/picture.h"
 #include "aureole/wave/psf.h"
+#include "aureole/wave/varying_psf.h"
 
 namespace aureole::app {
 
@@ -23,6 +24,12 @@ class Observer {
     // How light spreads in pictures whose display window is seen as `display` and data window as
     // `data`; nothing if it does not. Asked again when the views change or adapt() says so.
     virtual std::optional<wave::Psf> psf(const View& display, const View& data) = 0;
+    // The same where it depends on the position in the picture, in place of psf(); nothing if it
+    // does not.
+    virtual std::optional<wave::VaryingPsf> varying_psf(const View& /*display*/,
+                                                        const View& /*data*/) {
+        return std::nullopt;
+    }
     // Gets ready for ghosts() in pictures whose data window is seen as `data`.
     virtual void plan(const View& /*data*/) {}
     // The light that does not spread but comes by other ways, to be added to the picture: 3

@@ -117,6 +117,13 @@ glare::GlareOptions SpreadSettings::options(bool matte) const {
     return options;
 }
 
+std::string SpreadSettings::first_selective() const {
+    if (method == "direct") return "--method direct";
+    if (threshold != 0) return "--threshold";
+    if (gain != 1) return "--gain";
+    return surround == "same" ? "--surround same" : "";
+}
+
 void PictureJob::prepare(const io::Picture& picture) {
     const View display = observer_.view_of(picture);
     const View view = data_view(display, picture);
@@ -127,10 +134,15 @@ void PictureJob::prepare(const io::Picture& picture) {
         return;
     }
     prepared_.reset();
-    const std::optional<wave::Psf> psf =
-        session_.timed("psf", [&] { return observer_.psf(display, view); });
+    std::optional<wave::Psf> psf;
+    std::optional<wave::VaryingPsf> varying;
+    session_.timed("psf", [&] {
+        varying = observer_.varying_psf(display, view);
+        if (!varying) psf = observer_.psf(display, view);
+    });
     session_.timed("plan", [&] {
-        prepared_.emplace(Prepared{display, view, channels, std::nullopt});
+        prepared_.emplace(Prepared{display, view, channels, std::nullopt, std::nullopt});
+        if (varying) prepared_->varying.emplace(channels, *varying);
         if (psf) {
             prepared_->glare.emplace(view, channels, *psf,
                                      spread_.options(!settings_.matte_file.empty()));
@@ -161,9 +173,17 @@ const float* PictureJob::matte_for(const io::Picture& picture) {
 // Into result_; and what that changed into layer_.
 void PictureJob::spread(const ConstImageView& in, const float* matte) {
     const View& view = prepared_->view;
-    if (prepared_->glare) {
-        session_.timed("apply", [&] { prepared_->glare->apply(in, result_, matte); });
-        const glare::Energy energy = prepared_->glare->energy(in, result_, matte);
+    if (prepared_->spreads()) {
+        session_.timed("apply", [&] {
+            if (prepared_->varying) {
+                prepared_->varying->apply(in, result_);
+            } else {
+                prepared_->glare->apply(in, result_, matte);
+            }
+        });
+        const glare::Energy energy = prepared_->varying
+                                         ? prepared_->varying->energy(in, result_)
+                                         : prepared_->glare->energy(in, result_, matte);
         energy_.in += energy.in;
         energy_.out += energy.out;
         energy_.off_picture += energy.off_picture;
@@ -175,7 +195,8 @@ void PictureJob::spread(const ConstImageView& in, const float* matte) {
         energy_.out += energy;
     }
     if (settings_.layers == "composite") return;
-    layer_ = prepared_->glare ? difference(result_, in) : Image(in.width, in.height, in.channels);
+    layer_ =
+        prepared_->spreads() ? difference(result_, in) : Image(in.width, in.height, in.channels);
 }
 
 void PictureJob::add_ghosts(const Image& ghosts) {
@@ -265,6 +286,7 @@ std::string PictureJob::report() {
     if (energy_.from_surround != 0) json["energy"]["from_surround"] = energy_.from_surround;
     if (has_ghosts_) json["energy"]["ghosts"] = energy_.ghosts;
     if (last.glare) report_method(last.glare->last(), json);
+    if (last.varying) json["method"] = "nodes";
     json["nonfinite_pixels"] = nonfinite_pixels_;
     auto& parameters = json["parameters"];
     parameters = {{"width", last.view.width},
@@ -285,6 +307,10 @@ std::string PictureJob::report() {
                            {"gain", spread_.gain},
                            {"surround", spread_.surround}});
     }
+    if (last.varying) {
+        parameters.update({{"padded_width", last.varying->padded_width()},
+                           {"padded_height", last.varying->padded_height()}});
+    }
     if (!settings_.matte_file.empty()) parameters["matte"] = settings_.matte_file;
     observer_.report(json);
     std::string summary;
@@ -292,13 +318,13 @@ std::string PictureJob::report() {
     const auto percent = [&](double energy) {
         return energy_.in > 0 ? 100 * energy / energy_.in : 0.0;
     };
-    if (last.glare) {
+    if (last.spreads()) {
         summary += fmt::format("glare moved {:.2f} % of the light out of the picture;",
                                percent(energy_.off_picture));
     }
     if (has_ghosts_) {
         summary += fmt::format("{}ghosts added {:.3g} % to the light of the picture;",
-                               last.glare ? " " : "", percent(energy_.ghosts));
+                               last.spreads() ? " " : "", percent(energy_.ghosts));
     }
     for (const auto& [stage, seconds] : json["seconds"].items()) {
         summary += fmt::format(" {} {:.3f} s", stage, seconds.get<double>());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "aureole/glare/glare.h"
+#include "aureole/glare/varying_glare.h"
 #include "aureole/io/picture.h"
 #include "display_options.h"
 #include "frame_files.h"
@@ -36,6 +37,9 @@ struct PictureSettings {
 struct SpreadSettings {
     void add_options(CLI::App& group);
     glare::GlareOptions options(bool matte) const;
+    // The first option in force that a kernel that varies over the picture does not know, or
+    // nothing.
+    std::string first_selective() const;
 
     std::string method = "fft";
     double cluster_error = 0.01;
@@ -62,7 +66,10 @@ class PictureJob {
         View display;  // of the display window
         View view;     // of the data window: all of it makes glare
         int channels;
-        std::optional<glare::Glare> glare;  // none if light does not spread
+        std::optional<glare::Glare> glare;
+        std::optional<glare::VaryingGlare> varying;
+
+        bool spreads() const { return glare || varying; }
     };
     struct Energy : glare::Energy {
         double ghosts = 0;

@@ -102,11 +102,12 @@ void separate_amplitudes(wave::Field& field) {
 }  // namespace
 
 Components::Components(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOptions& options,
-                       Progress* progress, EyePsfTimings* timings)
+                       Progress* progress, EyePsfTimings* timings, const FieldPosition& field)
     : eye_(eye),
       options_(options),
       progress_(progress),
       timings_(timings),
+      field_(field),
       stage_start_(seconds()),
       levels_(spectral_levels(options.spectral, grid)),
       patch_(reached_pixels(grid, options.aperture, longest_wavelength_nm(levels_))),
@@ -127,7 +128,7 @@ void Components::finish_stage(double EyePsfTimings::*stage, double fraction) {
 
 void Components::draw_pupil_once() {
     if (pupil_) return;
-    pupil_ = draw_pupil(eye_, options_.aperture);
+    pupil_ = draw_pupil(eye_, options_.aperture, field_);
     const int n = options_.aperture.samples;
     const auto dark = [&](int j) {
         const float* row = pupil_->row(j);
@@ -234,7 +235,7 @@ Components::CoronaAndStreaks Components::corona_and_streaks(bool with_corona, bo
         add_particles(eye_, ParticleLayer::kCornea, particles);
     }
     wave::Mask lashes =
-        with_streaks ? draw_lashes(eye_, options_.aperture) : wave::Mask(options_.aperture);
+        with_streaks ? draw_lashes(eye_, options_.aperture, field_) : wave::Mask(options_.aperture);
 
     // Behind particles that delay light by phi the amplitude is P Q with Q - 1 = (e^(i phi) - 1) C,
     // C their coverage (overlaps add; they cover 3 %). Its pattern relative to its own ring means
@@ -268,6 +269,7 @@ Components::CoronaAndStreaks Components::corona_and_streaks(bool with_corona, bo
         total.covered += row.covered;
         total.blocked += row.blocked;
     }
+    if (!(total.open > 0)) return result;
     result.blocked_share = total.blocked / total.open;
     with_corona = total.covered > 0;
     with_streaks = total.blocked > 0;

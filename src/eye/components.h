@@ -20,7 +20,7 @@ namespace aureole::eye {
 class Components {
   public:
     Components(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOptions& options,
-               Progress* progress, EyePsfTimings* timings);
+               Progress* progress, EyePsfTimings* timings, const FieldPosition& field = {});
 
     // The central part of the kernel's grid that any pattern reaches. All pictures below have
     // three channels and this size.
@@ -35,7 +35,7 @@ class Components {
     struct CoronaAndStreaks {
         std::optional<Image> corona;   // T, not yet normalised; nothing without particles
         std::optional<Image> streaks;  // E; nothing without lashes before the pupil
-        double blocked_share = 0;      // of the pupil's area, by lashes
+        double blocked_share = 0;      // of the pupil's area, by lashes; 0 behind a closed lid
     };
     // Both at once: their masks are real, so one complex transform carries the two.
     CoronaAndStreaks corona_and_streaks(bool with_corona, bool with_streaks);
@@ -51,6 +51,7 @@ class Components {
     const EyePsfOptions& options_;
     Progress* progress_;
     EyePsfTimings* timings_;
+    FieldPosition field_;
     double stage_start_;
     double fraction_done_ = 0;
     std::vector<SpectralLevel> levels_;

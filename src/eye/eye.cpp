@@ -53,6 +53,12 @@ void check(const Eye& eye) {
     require("lash reach", anatomy.lashes.reach, 0, 2, "");
     require("lash reach_sd", anatomy.lashes.reach_sd, 0, 1, "");
     require("lash curvature", anatomy.lashes.curvature_per_mm, 0, 0.1, " per mm");
+    require("lash distance", anatomy.lashes.distance_mm, 0, 30, " mm");
+}
+
+void check(const FieldPosition& field) {
+    require("field x", field.x_deg, -80, 80, " deg");
+    require("field y", field.y_deg, -80, 80, " deg");
 }
 
 Look look_from_name(std::string_view name) {

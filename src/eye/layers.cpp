@@ -77,6 +77,44 @@ std::vector<float> fibre_jitter(const Eye& eye) {
     return jitter;
 }
 
+// Where a source off the axis sees the points of a layer.
+struct Oblique {
+    double shift_x_mm = 0;  // of what lies before the pupil
+    double shift_y_mm = 0;
+    double along_x = 0;  // unit vector from the axis to the source
+    double along_y = 0;
+    double shortening = 0;  // 1 - cosine of the angle
+};
+
+Oblique oblique(const Eye& eye, const FieldPosition& field) {
+    check(field);
+    const double x = std::tan(rad_from_deg(field.x_deg));
+    const double y = std::tan(rad_from_deg(field.y_deg));
+    const double r = std::hypot(x, y);
+    if (r == 0) return {};
+    const double distance_mm = eye.anatomy.lashes.distance_mm;
+    return {-distance_mm * x, -distance_mm * y, x / r, y / r, 1 - 1 / std::hypot(1, r)};
+}
+
+enum class Layer { kPupil, kBeforePupil };
+
+wave::Shape seen(wave::Shape shape, Layer layer, const Oblique& view) {
+    if (view.shortening == 0) return shape;
+    const bool shifted = layer == Layer::kBeforePupil;
+    for (auto& outline : shape.outlines) {
+        for (wave::Point& point : outline) {
+            if (shifted) {
+                point.x_mm += view.shift_x_mm;
+                point.y_mm += view.shift_y_mm;
+            }
+            const double along = point.x_mm * view.along_x + point.y_mm * view.along_y;
+            point.x_mm -= view.shortening * along * view.along_x;
+            point.y_mm -= view.shortening * along * view.along_y;
+        }
+    }
+    return shape;
+}
+
 // How far the upper lid has come down, and the lower one up, from the open eye, mm.
 double lid_descent_mm(const Eye& eye) {
     return (1 - eye.anatomy.lower_lid_share) * eye.eyelid * eye.pupil_diameter_mm;
@@ -87,8 +125,9 @@ double lid_rise_mm(const Eye& eye) {
 
 }  // namespace
 
-wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid) {
+wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid, const FieldPosition& field) {
     check(eye);
+    const Oblique view = oblique(eye, field);
     Random random(eye.seed, kPupilStream);
     std::vector<wave::RadiusHarmonic> harmonics;
     for (int order = kFirstEdgeHarmonic; order <= kLastEdgeHarmonic; ++order) {
@@ -97,13 +136,15 @@ wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid) {
     }
     const double radius_mm = eye.pupil_diameter_mm / 2;
     wave::Mask pupil(grid);
-    wave::draw(pupil, wave::irregular_disc(radius_mm, harmonics));
+    wave::draw(pupil, seen(wave::irregular_disc(radius_mm, harmonics), Layer::kPupil, view));
     if (eye.eyelid > 0) {
-        wave::draw(pupil, wave::lid_opening(wave::LidSide::kUpper, radius_mm - lid_descent_mm(eye)),
-                   wave::Blend::kKeep);
-        wave::draw(pupil, wave::lid_opening(wave::LidSide::kLower, lid_rise_mm(eye) - radius_mm),
-                   wave::Blend::kKeep);
-        if (!(wave::area_mm2(pupil) > 0)) {
+        const auto keep = [&](wave::LidSide side, double edge_y_mm) {
+            wave::draw(pupil, seen(wave::lid_opening(side, edge_y_mm), Layer::kBeforePupil, view),
+                       wave::Blend::kKeep);
+        };
+        keep(wave::LidSide::kUpper, radius_mm - lid_descent_mm(eye));
+        keep(wave::LidSide::kLower, lid_rise_mm(eye) - radius_mm);
+        if (view.shortening == 0 && !(wave::area_mm2(pupil) > 0)) {
             throw InvalidArgument("eyelid", fmt::format("{}", eye.eyelid),
                                   "leaves no opening; must be smaller");
         }
@@ -151,24 +192,74 @@ std::string grating_resolution_note(const Eye& eye, const wave::ApertureGrid& gr
         deg_from_rad(std::asin(mm_from_nm(568) / smallest_period_mm)));
 }
 
-wave::Mask draw_lashes(const Eye& eye, const wave::ApertureGrid& grid) {
-    check(eye);
+namespace {
+
+// The eyelid's half length: where the row of lashes ends.
+constexpr double kRowEndMm = 15;
+// Draws of a lash beside the pupil until it hangs clear of it; a lash that does not is left out.
+constexpr int kTries = 16;
+
+wave::Lash random_lash(const Eye& eye, double place, Random& random) {
     const Lashes& lashes = eye.anatomy.lashes;
+    const double radius_mm = eye.pupil_diameter_mm / 2;
+    const double across = place + 0.12 * random.normal();
+    const double reach = std::clamp(lashes.reach + lashes.reach_sd * random.normal(), 0.05, 1.2);
+    wave::Lash lash;
+    lash.tip = {across * radius_mm,
+                radius_mm - reach * eye.pupil_diameter_mm - lid_descent_mm(eye)};
+    lash.direction_deg = 90 - lashes.angle_sd_deg * random.normal();
+    lash.width_mm = mm_from_um(lashes.width_um) * random.uniform(0.75, 1.25);
+    lash.curvature_per_mm = lashes.curvature_per_mm * random.normal();
+    return lash;
+}
+
+// Whether all of an outline stays further than the radius from the axis.
+bool clear_of(double radius_mm, const wave::Shape& shape) {
+    for (const auto& outline : shape.outlines) {
+        wave::Point from = outline.back();
+        for (const wave::Point& to : outline) {
+            const double dx = to.x_mm - from.x_mm;
+            const double dy = to.y_mm - from.y_mm;
+            const double square = dx * dx + dy * dy;
+            const double along =
+                square > 0 ? std::clamp(-(from.x_mm * dx + from.y_mm * dy) / square, 0.0, 1.0) : 0;
+            if (std::hypot(from.x_mm + along * dx, from.y_mm + along * dy) <= radius_mm) {
+                return false;
+            }
+            from = to;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+wave::Mask draw_lashes(const Eye& eye, const wave::ApertureGrid& grid, const FieldPosition& field) {
+    check(eye);
+    const Oblique view = oblique(eye, field);
     const double radius_mm = eye.pupil_diameter_mm / 2;
     Random random(eye.seed, kLashStream);
     wave::Mask blocked(grid);
+    const auto draw = [&](const wave::Shape& shape) {
+        wave::draw(blocked, seen(shape, Layer::kBeforePupil, view), wave::Blend::kMax);
+    };
+    // Evenly spaced across 85 % of the pupil, then displaced; places in radii of the pupil.
+    const double spacing = 2 * 0.85 / std::max(eye.eyelashes, 1);
     for (int i = 0; i < eye.eyelashes; ++i) {
-        // Evenly spaced across 85 % of the pupil, then displaced.
-        const double across = 0.85 * (2 * (i + 0.5) / eye.eyelashes - 1) + 0.12 * random.normal();
-        const double reach =
-            std::clamp(lashes.reach + lashes.reach_sd * random.normal(), 0.05, 1.2);
-        wave::Lash lash;
-        lash.tip = {across * radius_mm,
-                    radius_mm - reach * eye.pupil_diameter_mm - lid_descent_mm(eye)};
-        lash.direction_deg = 90 - lashes.angle_sd_deg * random.normal();
-        lash.width_mm = mm_from_um(lashes.width_um) * random.uniform(0.75, 1.25);
-        lash.curvature_per_mm = lashes.curvature_per_mm * random.normal();
-        wave::draw(blocked, wave::lash(lash), wave::Blend::kMax);
+        draw(wave::lash(random_lash(eye, -0.85 + (i + 0.5) * spacing, random)));
+    }
+    if (view.shortening == 0 || eye.eyelashes == 0) return blocked;
+    // The rest of the row, outwards, one to the right and one to the left.
+    const double clear_mm = radius_mm * (1 + eye.anatomy.pupil_irregularity * kLastEdgeHarmonic);
+    for (double place = 0.85 + spacing / 2; place * radius_mm < kRowEndMm; place += spacing) {
+        for (const double side : {1.0, -1.0}) {
+            for (int attempt = 0; attempt < kTries; ++attempt) {
+                const wave::Shape shape = wave::lash(random_lash(eye, side * place, random));
+                if (!clear_of(clear_mm, shape)) continue;
+                draw(shape);
+                break;
+            }
+        }
     }
     return blocked;
 }

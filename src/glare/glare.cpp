@@ -9,10 +9,10 @@
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
-#include "aureole/color/rgb.h"
 #include "aureole/fourier/convolver.h"
 #include "aureole/sources/clusters.h"
 #include "aureole/sources/threshold.h"
+#include "glare/luminance_kernel.h"
 #include "glare/spreading.h"
 
 namespace aureole::glare {
@@ -48,20 +48,6 @@ void check(const View& view, int channels, const wave::Psf& psf, const GlareOpti
                               "must be that of the picture, " + std::to_string(view.pitch_deg) +
                                   ", in the same projection");
     }
-}
-
-// The kernel that a grey picture sees.
-Image luminance_kernel(const Image& kernel) {
-    Image grey(kernel.width(), kernel.height(), 1);
-    const auto& w = color::kLuminanceWeights;
-    parallel_for(static_cast<std::size_t>(kernel.height()), [&](std::size_t row, int) {
-        const int y = static_cast<int>(row);
-        for (int x = 0; x < kernel.width(); ++x) {
-            grey.at(x, y) = static_cast<float>(
-                w[0] * kernel.at(x, y, 0) + w[1] * kernel.at(x, y, 1) + w[2] * kernel.at(x, y, 2));
-        }
-    });
-    return grey;
 }
 
 }  // namespace

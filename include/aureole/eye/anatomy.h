@@ -37,6 +37,8 @@ struct Lashes {
     double reach = 0.45;       // mean share of the pupil's height that a lash covers from above
     double reach_sd = 0.25;    // its standard deviation
     double curvature_per_mm = 0.03;  // standard deviation
+    double distance_mm = 12;  // of the lashes and the lid's edge before the pupil, 0 to 30: what
+                              // moves them across it with the direction of the light
 };
 
 struct Anatomy {
@@ -82,12 +84,27 @@ enum class Look {
 Look look_from_name(std::string_view name);
 void apply_look(Eye& eye, Look look, double horizontal_field_deg);
 
+// Where a source is seen: to the right and up from the visual axis. (tan x, tan y) is its place in
+// a picture plane at distance 1. Both within +-80 deg.
+struct FieldPosition {
+    double x_deg = 0;
+    double y_deg = 0;
+};
+// Throws InvalidArgument that names what is outside.
+void check(const FieldPosition& field);
+
 // ---- The layers, drawn one by one. Each depends on the eye and its own random stream only, so
 // that changing one leaves the others as they are. ----
+//
+// Pupil, lids and lashes are drawn as a source at `field` sees them: what lies distance_mm before
+// the pupil is displaced by -distance_mm (tan x, tan y), and everything is foreshortened along the
+// direction of the source by the cosine of its angle.
 
 // Amplitude transmission of the pupil, upper lid included: 1 inside, 0 outside.
-// Throws InvalidArgument if the lid leaves no opening.
-wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid);
+// Throws InvalidArgument if the lid leaves no opening on the axis; from elsewhere light may meet
+// a closed lid, and all is 0.
+wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid,
+                      const FieldPosition& field = {});
 
 enum class ParticleLayer {
     kLens,      // small and large; moves with the lens
@@ -103,7 +120,10 @@ void multiply_gratings(const Eye& eye, wave::Field& field);
 // sentence that says where it does not.
 std::string grating_resolution_note(const Eye& eye, const wave::ApertureGrid& grid);
 
-// Share of each sample that lashes block. They move with the upper lid.
-wave::Mask draw_lashes(const Eye& eye, const wave::ApertureGrid& grid);
+// Share of each sample that lashes block. They move with the upper lid. Those of `eyelashes` hang
+// before the pupil of a source on the axis; the row goes on to both sides at the same spacing,
+// 15 mm from the axis at most, with lashes that do not reach this pupil.
+wave::Mask draw_lashes(const Eye& eye, const wave::ApertureGrid& grid,
+                       const FieldPosition& field = {});
 
 }  // namespace aureole::eye
