@@ -12,6 +12,7 @@ using Run = std::function<void()>;
 Run add_glare_command(CLI::App& app);
 Run add_flare_command(CLI::App& app);
 Run add_lens_command(CLI::App& app);
+Run add_meter_command(CLI::App& app);
 Run add_psf_command(CLI::App& app);
 Run add_scene_command(CLI::App& app);
 

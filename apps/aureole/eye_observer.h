@@ -18,6 +18,10 @@ enum class Metering {
     kFirst,        // a sequence keeps the eye of its first picture
 };
 
+// The luminance that a picture is metered at: its attribute aureole:adaptation_cd_m2, else its
+// mean.
+double metered_cd_m2(const io::Picture& picture, double white_luminance_cd_m2);
+
 class EyeObserver : public Observer {
   public:
     EyeObserver(const EyeOptions& eye, const ViewOptions& view, Metering metering, Session& session)
@@ -29,7 +33,7 @@ class EyeObserver : public Observer {
     void report(nlohmann::ordered_json& json) const override;
 
   private:
-    double metered_cd_m2(const io::Picture& picture) const;
+    double adaptation_to(const io::Picture& picture) const;
 
     const EyeOptions& options_;
     const ViewOptions& view_;

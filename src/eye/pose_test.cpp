@@ -116,7 +116,9 @@ TEST(Pose, ScalesTheFibresOfTheLens) {
     for (int j = 0; j < kGrid.samples; ++j) {
         for (int i = 0; i < kGrid.samples; ++i) {
             const std::size_t k = static_cast<std::size_t>(j) * 1024 + static_cast<std::size_t>(i);
-            if (std::hypot(kGrid.x_mm(i), kGrid.y_mm(j)) < 1.96) ASSERT_EQ(field.im[k], 0);
+            if (std::hypot(kGrid.x_mm(i), kGrid.y_mm(j)) < 1.96) {
+                ASSERT_EQ(field.im[k], 0);
+            }
         }
     }
 }

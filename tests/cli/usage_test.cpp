@@ -23,7 +23,7 @@ TEST_F(Help, ListsTheCommands) {
     const Outcome outcome = run("--help");
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.err, "");
-    EXPECT_TRUE(names_all(outcome.out, {"glare", "psf", "scene", "--help", "--version"}));
+    EXPECT_TRUE(names_all(outcome.out, {"glare", "meter", "psf", "scene", "--help", "--version"}));
 }
 
 TEST_F(Help, OfEveryCommandNamesItsOptions) {

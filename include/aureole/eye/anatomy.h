@@ -1,4 +1,4 @@
-// What an eye is made of: the parameters of one static eye.
+// What an eye is made of: the parameters of one eye at one moment.
 //
 // Defaults are an average adult. They are those with which the corona, the halo and the streaks
 // were calibrated against measured glare; lengths are in the plane of the entrance pupil.
