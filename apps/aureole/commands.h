@@ -13,6 +13,7 @@ Run add_glare_command(CLI::App& app);
 Run add_flare_command(CLI::App& app);
 Run add_lens_command(CLI::App& app);
 Run add_ibl_command(CLI::App& app);
+Run add_meter_command(CLI::App& app);
 Run add_psf_command(CLI::App& app);
 Run add_scene_command(CLI::App& app);
 

@@ -1,48 +1,33 @@
 #include "eye_observer.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "aureole/base/random.h"
 #include "aureole/color/rgb.h"
 #include "aureole/eye/eye_psf.h"
 #include "aureole/eye/field_psf.h"
+#include "aureole/eye/metering.h"
 #include "kernel_file.h"
 #include "output_options.h"
 
 namespace aureole::app {
-namespace {
-
-// The mean luminance of what is meant to be seen, in units of the picture.
-double mean_luminance(const io::Picture& picture) {
-    const Image seen = over_display_window(picture.color(), picture);
-    double sum = 0;
-    for (int y = 0; y < seen.height(); ++y) {
-        for (int x = 0; x < seen.width(); ++x) {
-            const double value =
-                seen.channels() == 3
-                    ? color::luminance({seen.at(x, y, 0), seen.at(x, y, 1), seen.at(x, y, 2)})
-                    : seen.at(x, y, 0);
-            sum += std::max(value, 0.0);
-        }
-    }
-    return sum / static_cast<double>(seen.pixels());
-}
-
-}  // namespace
-
-double EyeObserver::metered_cd_m2(const io::Picture& picture) const {
-    if (!options_.needs_adaptation()) return 0;
-    if (metering_ == Metering::kFirst && metered_cd_m2_) return *metered_cd_m2_;
+double metered_cd_m2(const io::Picture& picture, double white_luminance_cd_m2) {
     const double stored{picture.float_attribute("aureole:adaptation_cd_m2").value_or(-1.0F)};
     return std::isfinite(stored) && stored >= 0
                ? stored
-               : mean_luminance(picture) * view_.white_luminance(picture);
+               : eye::mean_luminance(over_display_window(picture.color(), picture)) *
+                     white_luminance_cd_m2;
+}
+
+double EyeObserver::adaptation_to(const io::Picture& picture) const {
+    if (!options_.needs_adaptation()) return 0;
+    if (metering_ == Metering::kFirst && metered_cd_m2_) return *metered_cd_m2_;
+    return metered_cd_m2(picture, white_luminance_cd_m2_);
 }
 
 bool EyeObserver::adapt(const io::Picture& picture) {
     white_luminance_cd_m2_ = view_.white_luminance(picture);
-    const double metered = metered_cd_m2(picture);
+    const double metered = adaptation_to(picture);
     const bool same = metered_cd_m2_ == metered;
     metered_cd_m2_ = metered;
     return same;

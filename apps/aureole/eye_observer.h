@@ -19,6 +19,10 @@ enum class Metering {
     kFirst,        // a sequence keeps the eye of its first picture
 };
 
+// The luminance that a picture is metered at: its attribute aureole:adaptation_cd_m2, else its
+// mean.
+double metered_cd_m2(const io::Picture& picture, double white_luminance_cd_m2);
+
 class EyeObserver : public Observer {
   public:
     // `field_spacing_deg`: between nodes at which streaks are computed; 0: the axis serves for all.
@@ -38,7 +42,7 @@ class EyeObserver : public Observer {
 
   private:
     void measure_field(const wave::VaryingPsf& psf);
-    double metered_cd_m2(const io::Picture& picture) const;
+    double adaptation_to(const io::Picture& picture) const;
 
     const EyeOptions& options_;
     const ViewOptions& view_;

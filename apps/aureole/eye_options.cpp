@@ -16,11 +16,15 @@ void EyeOptions::add_options(CLI::App& command) {
            {"physical", "vivid"})
         ->capture_default_str();
     add_options_to_group();
+    number_or_auto(adaptation_option_);
 }
 
 void EyeOptions::add_options_but_preset(CLI::App& command) {
     group_ = command.add_option_group("The eye");
     add_options_to_group();
+    adaptation_option_->type_name("auto|CD_M2|FILE");
+    adaptation_option_->description(adaptation_option_->get_description() +
+                                    "; with --time or --fps, a table of `aureole meter`");
 }
 
 void EyeOptions::add_options_to_group() {
@@ -50,11 +54,11 @@ void EyeOptions::add_options_to_group() {
     one_of(group.add_option("--pupil-model", pupil_model_, "From luminance to diameter"),
            {"watson-yellott", "moon-spencer", "de-groot", "thesis"})
         ->capture_default_str();
-    number_or_auto(group.add_option("--adaptation", adaptation_,
-                                    "Luminance the eye is adapted to, in cd/m2, or auto: attribute "
-                                    "aureole:adaptation_cd_m2, else the mean of the picture"))
-        ->type_name("auto|CD_M2")
-        ->capture_default_str();
+    adaptation_option_ =
+        group.add_option("--adaptation", adaptation_,
+                         "Luminance the eye is adapted to, in cd/m2, or auto: attribute "
+                         "aureole:adaptation_cd_m2, else the mean of the picture");
+    adaptation_option_->type_name("auto|CD_M2")->capture_default_str();
     number(
         group.add_option("--eyelid", eyelid_, "How far the upper lid is closed: 0 open, 1 closed"))
         ->type_name("0..1")
@@ -75,6 +79,25 @@ void EyeOptions::check() const {
     eye(kAnyLuminance, View::from_fov(16, 9, 60, Projection::kPerspective));
 }
 
+std::string EyeOptions::adaptation_file() const {
+    return adaptation_ == "auto" || given_number(adaptation_) ? "" : adaptation_;
+}
+
+eye::PupilConditions EyeOptions::pupil_conditions(const View& view) const {
+    constexpr double kSphereDeg2 = 41252;  // a wide picture of equal angles may claim more
+    eye::PupilConditions conditions;
+    conditions.age_years = age_years_;
+    conditions.field_area_deg2 =
+        std::min(view.solid_angle_sr() * deg_from_rad(1) * deg_from_rad(1), kSphereDeg2);
+    return conditions;
+}
+
+void EyeOptions::apply_pupil(eye::MotionSettings& settings, const View& view) const {
+    settings.pupil_model = eye::pupil_model_from_name(pupil_model_);
+    settings.pupil_conditions = pupil_conditions(view);
+    settings.mean_pupil_mm = given_number(pupil_);
+}
+
 double EyeOptions::adaptation_cd_m2(double metered_cd_m2) const {
     return given_number(adaptation_).value_or(metered_cd_m2);
 }
@@ -90,13 +113,9 @@ eye::Eye EyeOptions::eye(double metered_cd_m2, const View& view) const {
     if (const std::optional<double> diameter_mm = given_number(pupil_)) {
         eye.pupil_diameter_mm = *diameter_mm;
     } else {
-        constexpr double kSphereDeg2 = 41252;  // a wide picture of equal angles may claim more
-        eye::PupilConditions conditions;
-        conditions.age_years = age_years_;
-        conditions.field_area_deg2 =
-            std::min(view.solid_angle_sr() * deg_from_rad(1) * deg_from_rad(1), kSphereDeg2);
-        eye.pupil_diameter_mm = eye::pupil_diameter_mm(eye::pupil_model_from_name(pupil_model_),
-                                                       adaptation_cd_m2(metered_cd_m2), conditions);
+        eye.pupil_diameter_mm =
+            eye::pupil_diameter_mm(eye::pupil_model_from_name(pupil_model_),
+                                   adaptation_cd_m2(metered_cd_m2), pupil_conditions(view));
     }
     eye::apply_look(eye, eye::look_from_name(preset_), view.horizontal_field_deg());
     eye.corona_contrast = corona_contrast_.value_or(eye.corona_contrast);

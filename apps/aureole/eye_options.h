@@ -8,6 +8,7 @@
 #include <string>
 
 #include "aureole/eye/anatomy.h"
+#include "aureole/eye/motion.h"
 #include "aureole/image/view.h"
 
 namespace aureole::app {
@@ -16,7 +17,8 @@ class EyeOptions {
   public:
     // --preset and the others.
     void add_options(CLI::App& command);
-    // The others, for commands whose --preset knows further words.
+    // The others, for commands whose --preset knows further words and whose --adaptation may be a
+    // table over time.
     void add_options_but_preset(CLI::App& command);
     void set_preset(const std::string& word) { preset_ = word; }
 
@@ -27,6 +29,13 @@ class EyeOptions {
 
     // Whether the pupil follows from the luminance that the picture is metered at.
     bool needs_adaptation() const { return pupil_ == "auto" && adaptation_ == "auto"; }
+    // The table over time that --adaptation names, or nothing.
+    std::string adaptation_file() const;
+    // --adaptation as a number, or what was metered.
+    double adaptation_cd_m2(double metered_cd_m2) const;
+    std::uint64_t seed() const { return seed_; }
+    // Where the mean of a pupil that moves comes from, in an eye that looks at a view.
+    void apply_pupil(eye::MotionSettings& settings, const View& view) const;
     // The eye of the options, looking at a view. `metered_cd_m2` is used if needs_adaptation().
     eye::Eye eye(double metered_cd_m2, const View& view) const;
     // Every value of that eye, and where it came from.
@@ -34,9 +43,10 @@ class EyeOptions {
 
   private:
     void add_options_to_group();
-    double adaptation_cd_m2(double metered_cd_m2) const;
+    eye::PupilConditions pupil_conditions(const View& view) const;
 
     CLI::Option_group* group_ = nullptr;
+    CLI::Option* adaptation_option_ = nullptr;
     std::string preset_ = "physical";
     double age_years_ = 30;
     std::string pigmentation_ = "brown";

@@ -75,7 +75,10 @@ std::vector<FrameFiles> frame_files(const std::vector<std::string>& inputs,
 
     std::vector<FrameFiles> list(in.size());
     std::vector<std::string> all;
-    for (std::size_t i = 0; i < in.size(); ++i) list[i].input = in[i];
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        list[i].number = numbers.empty() ? static_cast<int>(i) : numbers[i];
+        list[i].input = in[i];
+    }
     for (const std::string& output : outputs) {
         const std::vector<std::string> names = names_of(output, in, numbers);
         for (std::size_t i = 0; i < in.size(); ++i) list[i].outputs.push_back(names[i]);

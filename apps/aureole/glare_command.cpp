@@ -7,6 +7,8 @@
 #include "commands.h"
 #include "eye_observer.h"
 #include "frame_files.h"
+#include "living_eye_observer.h"
+#include "motion_options.h"
 #include "option_checks.h"
 #include "picture_job.h"
 
@@ -26,6 +28,7 @@ struct GlareCommand {
     SpreadSettings spread;
     ViewOptions view;
     EyeOptions eye;
+    MotionOptions motion;
     CameraOptions camera;
     GhostOptions ghosts;
     LightOptions lights;
@@ -82,6 +85,7 @@ void GlareCommand::add_options(CLI::App& command) {
     spread.add_options(group);
     settings.add_options(group, command);
     eye.add_options_but_preset(command);
+    motion.add_options(command);
     camera.add_options(command, kFallbackLens);
     lights.add_options(command);
     ghosts.add_options(command);
@@ -113,6 +117,8 @@ void GlareCommand::check() {
     }
     if (observer_name == "camera") {
         refuse(eye.first_given(), "is an option of the eye: leave it out with --observer camera");
+        refuse(motion.first_given(),
+               "is an option of the eye: leave it out with --observer camera");
         refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
         refuse(view.white_luminance_given() ? "--white-luminance" : "",
                "matters for the eye's pupil only: leave it out with --observer camera");
@@ -129,9 +135,19 @@ void GlareCommand::check() {
     refuse(preset == "blog" ? "--preset blog" : "", "needs --observer camera");
     eye.set_preset(preset);
     eye.check();
+    motion.check();
+    if (!motion.alive()) {
+        refuse(eye.adaptation_file().empty() ? "" : "--adaptation " + eye.adaptation_file(),
+               "is a table over time: needs --time or --fps");
+    }
+    // The first picture that a run happens to render must not decide for the others.
+    refuse(motion.has_rate() && eye.needs_adaptation() ? "--fps" : "",
+           "needs a luminance that is known for every frame: --adaptation with a table of `aureole "
+           "meter` or a number, or --pupil");
     if (psf_file.empty()) return;
-    const std::string option =
-        preset_option->count() > 0 ? preset_option->get_name() : eye.first_given();
+    const std::string option = preset_option->count() > 0   ? preset_option->get_name()
+                               : !eye.first_given().empty() ? eye.first_given()
+                                                            : motion.first_given();
     if (!option.empty()) {
         throw InvalidArgument("--psf", psf_file, "replaces the eye: leave out " + option);
     }
@@ -143,14 +159,16 @@ std::unique_ptr<Observer> GlareCommand::observer() {
         return std::make_unique<CameraObserver>(camera, ghosts, lights, view, kStarburst, session);
     }
     if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
+    if (motion.alive()) return std::make_unique<LivingEyeObserver>(eye, motion, view, session);
     const Metering metering = frames.empty() ? Metering::kEachPicture : Metering::kFirst;
     return std::make_unique<EyeObserver>(eye, view, metering, field_spacing_deg, session);
 }
 
 void GlareCommand::run() {
     session.start();
-    const std::vector<FrameFiles> list =
+    std::vector<FrameFiles> list =
         frame_files(inputs, settings.output.paths(), settings.side_by_side_file, frames);
+    for (FrameFiles& frame : list) frame.time_s = motion.time_s(frame.number);
     settings.prepare(list);
     check();
     ghosts.check_pictures(list.size());

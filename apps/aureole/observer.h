@@ -17,6 +17,8 @@ class Observer {
   public:
     virtual ~Observer() = default;
 
+    // When the next picture is seen, for observers that move.
+    virtual void set_time(double /*time_s*/) {}
     // How the display window of a picture sees the world.
     virtual View view_of(const io::Picture& picture) = 0;
     // Gets used to the picture; false if the PSF made before does not serve for it.
@@ -30,6 +32,8 @@ class Observer {
                                                         const View& /*data*/) {
         return std::nullopt;
     }
+    // How much of the picture's light gets in, 0 to 1: the picture that spreads dims by it.
+    virtual double light_share() const { return 1; }
     // Gets ready for ghosts() in pictures whose data window is seen as `data`.
     virtual void plan(const View& /*data*/) {}
     // The light that does not spread but comes by other ways, to be added to the picture: 3

@@ -41,6 +41,12 @@ void report_method(const glare::MethodReport& report, nlohmann::ordered_json& js
     }
 }
 
+void scale(Image& image, double factor) {
+    const auto f = static_cast<float>(factor);
+    const std::size_t count = image.pixels() * static_cast<std::size_t>(image.channels());
+    std::for_each_n(image.plane(0), count, [&](float& value) { value *= f; });
+}
+
 }  // namespace
 
 void PictureSettings::add_options(CLI::App& group, CLI::App& command) {
@@ -173,6 +179,7 @@ const float* PictureJob::matte_for(const io::Picture& picture) {
 // Into result_; and what that changed into layer_.
 void PictureJob::spread(const ConstImageView& in, const float* matte) {
     const View& view = prepared_->view;
+    const double share = observer_.light_share();
     if (prepared_->spreads()) {
         session_.timed("apply", [&] {
             if (prepared_->varying) {
@@ -185,15 +192,18 @@ void PictureJob::spread(const ConstImageView& in, const float* matte) {
                                          ? prepared_->varying->energy(in, result_)
                                          : prepared_->glare->energy(in, result_, matte);
         energy_.in += energy.in;
-        energy_.out += energy.out;
-        energy_.off_picture += energy.off_picture;
+        energy_.out += share * energy.out;
+        energy_.off_picture += share * energy.off_picture;
+        energy_.blocked += (1 - share) * (energy.in + energy.from_surround);
         energy_.from_surround += energy.from_surround;
     } else {
         session_.timed("apply", [&] { result_ = copy(in); });
         const double energy = energy_of(in, view, solid_angles_);
         energy_.in += energy;
-        energy_.out += energy;
+        energy_.out += share * energy;
+        energy_.blocked += (1 - share) * energy;
     }
+    if (share < 1) scale(result_, share);
     if (settings_.layers == "composite") return;
     layer_ =
         prepared_->spreads() ? difference(result_, in) : Image(in.width, in.height, in.channels);
@@ -222,6 +232,7 @@ void PictureJob::add_ghosts(const Image& ghosts) {
 }
 
 void PictureJob::process(const FrameFiles& files) {
+    observer_.set_time(files.time_s);
     io::Picture picture = session_.timed("read", [&] { return io::read_picture(files.input); });
     const std::size_t nonfinite = replace_nonfinite(picture.color());
     if (nonfinite > 0) {
@@ -284,6 +295,7 @@ std::string PictureJob::report() {
     json["energy"] = {
         {"in", energy_.in}, {"out", energy_.out}, {"off_picture", energy_.off_picture}};
     if (energy_.from_surround != 0) json["energy"]["from_surround"] = energy_.from_surround;
+    if (energy_.blocked != 0) json["energy"]["blocked"] = energy_.blocked;
     if (has_ghosts_) json["energy"]["ghosts"] = energy_.ghosts;
     if (last.glare) report_method(last.glare->last(), json);
     if (last.varying) json["method"] = "nodes";

@@ -73,6 +73,7 @@ class PictureJob {
     };
     struct Energy : glare::Energy {
         double ghosts = 0;
+        double blocked = 0;  // by lids
     };
 
     void process(const FrameFiles& files);

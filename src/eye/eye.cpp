@@ -54,6 +54,11 @@ void check(const Eye& eye) {
     require("lash reach_sd", anatomy.lashes.reach_sd, 0, 1, "");
     require("lash curvature", anatomy.lashes.curvature_per_mm, 0, 0.1, " per mm");
     require("lash distance", anatomy.lashes.distance_mm, 0, 30, " mm");
+    require("lens scale", eye.pose.lens_scale, 0.9, 1.1, "");
+    require("vitreous yaw", eye.pose.vitreous_yaw_deg, -90, 90, " deg");
+    require("vitreous pitch", eye.pose.vitreous_pitch_deg, -90, 90, " deg");
+    require("vitreous roll", eye.pose.vitreous_roll_deg, -90, 90, " deg");
+    require("lash closure", eye.pose.lash_closure, 0, 1, "");
 }
 
 void check(const FieldPosition& field) {

@@ -37,8 +37,10 @@ constexpr int kLastEdgeHarmonic = 8;
 constexpr int kJitterHarmonics = 400;
 constexpr int kJitterNodes = 8192;
 
+// Calls move(disc, index) for each particle before it is drawn.
+template <class Move>
 void add_disc_of_particles(const Eye& eye, const Particles& particles, Stream stream,
-                           wave::Mask& coverage) {
+                           wave::Mask& coverage, const Move& move) {
     Random random(eye.seed, stream);
     std::vector<wave::Particle> discs(static_cast<std::size_t>(particles.count));
     for (auto& disc : discs) {
@@ -49,8 +51,65 @@ void add_disc_of_particles(const Eye& eye, const Particles& particles, Stream st
         disc.radius_mm =
             mm_from_um(random.log_uniform(particles.min_radius_um, particles.max_radius_um));
     }
+    for (std::size_t i = 0; i < discs.size(); ++i) move(discs[i], i);
     wave::draw_particles(coverage, discs);
 }
+
+// The vitreous as one rigid body. Seen from the retina, a particle at depth z behind the pupil lies
+// before the point of the pupil L / (L - z) times as far from the axis, L the distance to the
+// retina; and a turn about the centre of the eye moves it sideways by its distance from there.
+class VitreousMotion {
+  public:
+    explicit VitreousMotion(const Eye& eye)
+        : radius_mm_(eye.anatomy.particle_disc_radius_mm),
+          yaw_rad_(rad_from_deg(eye.pose.vitreous_yaw_deg)),
+          pitch_rad_(rad_from_deg(eye.pose.vitreous_pitch_deg)),
+          cosine_(std::cos(rad_from_deg(eye.pose.vitreous_roll_deg))),
+          sine_(std::sin(rad_from_deg(eye.pose.vitreous_roll_deg))),
+          at_rest_(yaw_rad_ == 0 && pitch_rad_ == 0 && eye.pose.vitreous_roll_deg == 0) {}
+
+    void operator()(wave::Particle& disc, std::size_t index) const {
+        if (at_rest_) return;
+        const double depth_mm = kVitreousDepthsMm[index % kVitreousDepthsMm.size()];
+        const double mm_per_rad =
+            (kRotationCentreMm - depth_mm) * kRetinaMm / (kRetinaMm - depth_mm);
+        const double x_mm = cosine_ * disc.x_mm - sine_ * disc.y_mm;
+        const double y_mm = sine_ * disc.x_mm + cosine_ * disc.y_mm;
+        const double shift_x_mm = mm_per_rad * yaw_rad_;
+        const double shift_y_mm = mm_per_rad * pitch_rad_;
+        const double shift_mm = std::hypot(shift_x_mm, shift_y_mm);
+        disc.x_mm = x_mm;
+        disc.y_mm = y_mm;
+        if (shift_mm == 0) return;
+        // There is more vitreous than the disc that is drawn: who leaves it enters again at the
+        // other end of the chord, which keeps the density uniform.
+        const double ux = shift_x_mm / shift_mm;
+        const double uy = shift_y_mm / shift_mm;
+        const double along_mm = ux * x_mm + uy * y_mm;
+        const double across_mm = ux * y_mm - uy * x_mm;
+        const double half_chord_mm =
+            std::sqrt(std::max(radius_mm_ * radius_mm_ - across_mm * across_mm, 1e-12));
+        const double turns = (along_mm + shift_mm + half_chord_mm) / (2 * half_chord_mm);
+        const double moved_mm = along_mm + shift_mm - 2 * half_chord_mm * std::floor(turns);
+        disc.x_mm = moved_mm * ux - across_mm * uy;
+        disc.y_mm = moved_mm * uy + across_mm * ux;
+    }
+
+  private:
+    // Distances behind the entrance pupil of an eye 24 mm long (Gullstrand's: pupil 3.05 mm behind
+    // the cornea, centre of rotation 13.5 mm). Depths in the front half of the vitreous: what is
+    // farther back throws shadows (floaters) instead of wide diffraction.
+    static constexpr double kRotationCentreMm = 10.4;
+    static constexpr double kRetinaMm = 21;
+    static constexpr std::array<double, 2> kVitreousDepthsMm = {4, 8};
+
+    double radius_mm_;
+    double yaw_rad_;
+    double pitch_rad_;
+    double cosine_;
+    double sine_;
+    bool at_rest_;
+};
 
 // Displacement of the fibres over one turn, in radians of the fibres' own phase.
 std::vector<float> fibre_jitter(const Eye& eye) {
@@ -116,11 +175,30 @@ wave::Shape seen(wave::Shape shape, Layer layer, const Oblique& view) {
 }
 
 // How far the upper lid has come down, and the lower one up, from the open eye, mm.
-double lid_descent_mm(const Eye& eye) {
-    return (1 - eye.anatomy.lower_lid_share) * eye.eyelid * eye.pupil_diameter_mm;
+double lid_descent_mm(const Eye& eye, double closure) {
+    return (1 - eye.anatomy.lower_lid_share) * closure * eye.pupil_diameter_mm;
 }
-double lid_rise_mm(const Eye& eye) {
-    return eye.anatomy.lower_lid_share * eye.eyelid * eye.pupil_diameter_mm;
+double lid_rise_mm(const Eye& eye, double closure) {
+    return eye.anatomy.lower_lid_share * closure * eye.pupil_diameter_mm;
+}
+
+// A lash of the length `span_mm` below the upper lid's edge, which the lower lid has left `gap_mm`
+// of height, as an arc of that length; its tip stands on the lower lid. Root and direction of the
+// chord stay. x = sin(x) / (1 - e) gives half of the arc's angle: x^2 = 6 e (1 + .3 e) to 1 % up to
+// a half circle.
+void bend(wave::Lash& lash, double span_mm, double gap_mm) {
+    const double direction = rad_from_deg(lash.direction_deg);
+    const double length_mm = span_mm / std::sin(direction);
+    const double missing = std::clamp(1 - gap_mm / span_mm, 0.0, 1.0);
+    if (missing == 0) return;
+    const double half_angle = std::min(std::sqrt(6 * missing * (1 + 0.3 * missing)), kPi / 2);
+    const double side = std::copysign(1.0, lash.curvature_per_mm);
+    lash.tip.x_mm += missing * length_mm * std::cos(direction);
+    lash.tip.y_mm += missing * span_mm;
+    lash.direction_deg -= side * deg_from_rad(half_angle);
+    lash.curvature_per_mm += side * 2 * half_angle / length_mm;
+    // Longer ones would come back as a ring.
+    lash.length_mm = std::max(lash.taper_mm, std::min(lash.length_mm, 2 * length_mm));
 }
 
 }  // namespace
@@ -142,8 +220,8 @@ wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid, const Fiel
             wave::draw(pupil, seen(wave::lid_opening(side, edge_y_mm), Layer::kBeforePupil, view),
                        wave::Blend::kKeep);
         };
-        keep(wave::LidSide::kUpper, radius_mm - lid_descent_mm(eye));
-        keep(wave::LidSide::kLower, lid_rise_mm(eye) - radius_mm);
+        keep(wave::LidSide::kUpper, radius_mm - lid_descent_mm(eye, eye.eyelid));
+        keep(wave::LidSide::kLower, lid_rise_mm(eye, eye.eyelid) - radius_mm);
         if (view.shortening == 0 && !(wave::area_mm2(pupil) > 0)) {
             throw InvalidArgument("eyelid", fmt::format("{}", eye.eyelid),
                                   "leaves no opening; must be smaller");
@@ -154,16 +232,24 @@ wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid, const Fiel
 
 void add_particles(const Eye& eye, ParticleLayer layer, wave::Mask& coverage) {
     check(eye);
+    const auto with_lens = [scale = eye.pose.lens_scale](wave::Particle& disc, std::size_t) {
+        disc.x_mm *= scale;
+        disc.y_mm *= scale;
+    };
+    const auto stay = [](wave::Particle&, std::size_t) {};
     switch (layer) {
         case ParticleLayer::kLens:
-            add_disc_of_particles(eye, eye.anatomy.lens_small, kLensSmallStream, coverage);
-            add_disc_of_particles(eye, eye.anatomy.lens_large, kLensLargeStream, coverage);
+            add_disc_of_particles(eye, eye.anatomy.lens_small, kLensSmallStream, coverage,
+                                  with_lens);
+            add_disc_of_particles(eye, eye.anatomy.lens_large, kLensLargeStream, coverage,
+                                  with_lens);
             break;
         case ParticleLayer::kVitreous:
-            add_disc_of_particles(eye, eye.anatomy.vitreous, kVitreousStream, coverage);
+            add_disc_of_particles(eye, eye.anatomy.vitreous, kVitreousStream, coverage,
+                                  VitreousMotion(eye));
             break;
         case ParticleLayer::kCornea:
-            add_disc_of_particles(eye, eye.anatomy.cornea, kCorneaStream, coverage);
+            add_disc_of_particles(eye, eye.anatomy.cornea, kCorneaStream, coverage, stay);
             break;
     }
 }
@@ -174,8 +260,8 @@ void multiply_gratings(const Eye& eye, wave::Field& field) {
     wave::RadialGrating grating;
     grating.fibres = gratings.fibres;
     grating.phase_rad = gratings.phase_rad;
-    grating.inner_radius_mm = gratings.inner_radius_mm;
-    grating.full_radius_mm = gratings.full_radius_mm;
+    grating.inner_radius_mm = gratings.inner_radius_mm * eye.pose.lens_scale;
+    grating.full_radius_mm = gratings.full_radius_mm * eye.pose.lens_scale;
     grating.jitter_rad = fibre_jitter(eye);
     wave::multiply_radial_grating(field, grating);
 }
@@ -202,14 +288,22 @@ constexpr int kTries = 16;
 wave::Lash random_lash(const Eye& eye, double place, Random& random) {
     const Lashes& lashes = eye.anatomy.lashes;
     const double radius_mm = eye.pupil_diameter_mm / 2;
+    const double closure = std::max(eye.eyelid, eye.pose.lash_closure);
+    const double upper_edge_mm = radius_mm - lid_descent_mm(eye, closure);
+    const double lower_edge_mm = lid_rise_mm(eye, closure) - radius_mm;
     const double across = place + 0.12 * random.normal();
     const double reach = std::clamp(lashes.reach + lashes.reach_sd * random.normal(), 0.05, 1.2);
     wave::Lash lash;
     lash.tip = {across * radius_mm,
-                radius_mm - reach * eye.pupil_diameter_mm - lid_descent_mm(eye)};
+                radius_mm - reach * eye.pupil_diameter_mm - lid_descent_mm(eye, closure)};
     lash.direction_deg = 90 - lashes.angle_sd_deg * random.normal();
     lash.width_mm = mm_from_um(lashes.width_um) * random.uniform(0.75, 1.25);
     lash.curvature_per_mm = lashes.curvature_per_mm * random.normal();
+    if (eye.pose.lashes_bend) {
+        // What reaches beyond the lower lid of an open eye hangs in front of it.
+        const double beyond_mm = std::max(reach - 1, 0.0) * eye.pupil_diameter_mm;
+        bend(lash, reach * eye.pupil_diameter_mm, upper_edge_mm - lower_edge_mm + beyond_mm);
+    }
     return lash;
 }
 

@@ -23,7 +23,7 @@ TEST_F(Help, ListsTheCommands) {
     const Outcome outcome = run("--help");
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.err, "");
-    EXPECT_TRUE(names_all(outcome.out, {"glare", "psf", "scene", "--help", "--version"}));
+    EXPECT_TRUE(names_all(outcome.out, {"glare", "meter", "psf", "scene", "--help", "--version"}));
 }
 
 TEST_F(Help, OfEveryCommandNamesItsOptions) {
@@ -37,11 +37,11 @@ TEST_F(Help, OfEveryCommandNamesItsOptions) {
     }
     EXPECT_TRUE(names_all(glare.out, kEye));
     EXPECT_TRUE(names_all(psf.out, kEye));
-    EXPECT_TRUE(names_all(
-        glare.out, {"INPUT", "--output", "--frames", "--white-luminance", "--method",
-                    "--cluster-error", "--output-layers", "--matte", "--threshold", "--gain",
-                    "--field-varying", "--psf", "--surround", "--side-by-side", "--tone-map",
-                    "--exposure", "--ocio-config", "none|narkowicz|hill|aces"}));
+    EXPECT_TRUE(names_all(glare.out,
+                          {"INPUT", "--output", "--frames", "--white-luminance", "--method",
+                           "--cluster-error", "--output-layers", "--matte", "--threshold", "--gain",
+                           "--field-varying", "--psf", "--surround", "--side-by-side", "--tone-map",
+                           "--exposure", "--ocio-config", "none|narkowicz|hill|aces"}));
     EXPECT_TRUE(names_all(psf.out, {"--output", "--width", "--height", "--size", "--component",
                                     "bloom", "corona", "halo", "streaks"}));
     EXPECT_TRUE(

@@ -1,4 +1,4 @@
-// What an eye is made of: the parameters of one static eye.
+// What an eye is made of: the parameters of one eye at one moment.
 //
 // Defaults are an average adult. They are those with which the corona, the halo and the streaks
 // were calibrated against measured glare; lengths are in the plane of the entrance pupil.
@@ -54,6 +54,22 @@ struct Anatomy {
     double pupil_irregularity = 0.004;  // rms scale of the harmonics of the pupil's edge, 0 to 0.1
 };
 
+// Where those parts of an eye are that move; the default is an eye at rest. motion.h says how they
+// move with time.
+struct Pose {
+    double lens_scale = 1;  // of the lens, its fibres and particles, about the axis; 0.9 to 1.1
+    // Rotation of the vitreous against the eye, about the eye's centre; -90 to 90 each.
+    double vitreous_yaw_deg = 0;    // > 0: its front has moved towards +x
+    double vitreous_pitch_deg = 0;  // > 0: towards +y
+    double vitreous_roll_deg = 0;   // > 0: counter-clockwise
+    // How far the lashes have come down with a lid that covers nothing, 0 to 1 as Eye::eyelid; the
+    // larger of both counts.
+    double lash_closure = 0;
+    // Whether lashes bend where they meet the lower lid. Without, they pass it: straight lashes are
+    // those with which the streaks were calibrated.
+    bool lashes_bend = false;
+};
+
 // One eye, and what it is made to look like.
 struct Eye {
     double pupil_diameter_mm = 5;  // 1 to 9; see pupil.h
@@ -68,6 +84,7 @@ struct Eye {
     double halo = 1;             // scale of the halo's energy, 0 to 20
     double streaks = 1;          // scale of the energy in the streaks, 0 to 20
     Anatomy anatomy;
+    Pose pose;
 };
 
 // Throws InvalidArgument that names the first value outside the ranges above.
@@ -108,7 +125,7 @@ wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid,
 
 enum class ParticleLayer {
     kLens,      // small and large; moves with the lens
-    kVitreous,  // moves with eye and head
+    kVitreous,  // in two depths, 4 and 8 mm behind the pupil; moves when eye and head turn
     kCornea,    // static
 };
 // Adds 1 wherever a particle of the layer lies (antialiased; overlapping particles add up).
@@ -122,7 +139,9 @@ std::string grating_resolution_note(const Eye& eye, const wave::ApertureGrid& gr
 
 // Share of each sample that lashes block. They move with the upper lid. Those of `eyelashes` hang
 // before the pupil of a source on the axis; the row goes on to both sides at the same spacing,
-// 15 mm from the axis at most, with lashes that do not reach this pupil.
+// 15 mm from the axis at most, with lashes that do not reach this pupil. Lashes that bend keep
+// their length between the edge of the upper lid and their tip, which stays on that of the lower
+// one: they become arcs, at most half circles.
 wave::Mask draw_lashes(const Eye& eye, const wave::ApertureGrid& grid,
                        const FieldPosition& field = {});
 

@@ -1,0 +1,43 @@
+// An eye that lives: each picture is seen at a moment of its own.
+#pragma once
+
+#include <optional>
+
+#include "aureole/eye/motion.h"
+#include "eye_options.h"
+#include "motion_options.h"
+#include "observer.h"
+#include "session.h"
+#include "view_options.h"
+
+namespace aureole::app {
+
+// Nothing that a picture leaves behind changes what comes after it: frames may be rendered in any
+// order, by any number of runs.
+class LivingEyeObserver : public Observer {
+  public:
+    // Reads the files that the options name. Throws FileError, InvalidArgument.
+    LivingEyeObserver(const EyeOptions& eye, const MotionOptions& motion, const ViewOptions& view,
+                      Session& session);
+
+    void set_time(double time_s) override { time_s_ = time_s; }
+    View view_of(const io::Picture& picture) override;
+    bool adapt(const io::Picture& picture) override;
+    std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    double light_share() const override { return moment_.light_share; }
+    void report(nlohmann::ordered_json& json) const override;
+
+  private:
+    const EyeOptions& options_;
+    const MotionOptions& motion_;
+    const ViewOptions& view_options_;
+    Session& session_;
+    eye::MotionSettings settings_;
+    std::optional<eye::LuminanceCurve> adaptation_;  // none: each picture's own
+    View view_;
+    double time_s_ = 0;
+    double white_luminance_cd_m2_ = 0;
+    eye::Moment moment_;
+};
+
+}  // namespace aureole::app

@@ -1,0 +1,96 @@
+#include "motion_options.h"
+
+#include "aureole/base/error.h"
+#include "number_table.h"
+#include "option_checks.h"
+
+namespace aureole::app {
+namespace {
+
+eye::Gaze gaze_from(const std::string& file) {
+    const NumberTable table(file);
+    const auto& yaw = table.column("yaw_deg");
+    const auto& pitch = table.column("pitch_deg");
+    const auto& roll = table.column("roll_deg");
+    std::vector<eye::Rotation> rotations;
+    for (std::size_t i = 0; i < yaw.size(); ++i) rotations.push_back({yaw[i], pitch[i], roll[i]});
+    try {
+        return eye::Gaze::through(table.column("time_s"), std::move(rotations));
+    } catch (const InvalidArgument& error) {
+        throw FileError(file, error.what());
+    }
+}
+
+eye::BlinkSettings blinks_from(const std::string& text) {
+    eye::BlinkSettings blinks;
+    if (text == "off") return blinks;
+    blinks.blinking = eye::Blinking::kSpontaneous;
+    blinks.streaks_only = text == "streaks";
+    if (text == "auto" || text == "streaks") return blinks;
+    blinks.blinking = eye::Blinking::kVoluntary;
+    const auto times = given_numbers(text, ',');
+    blinks.voluntary_s = times ? *times : NumberTable(text).column("time_s");
+    return blinks;
+}
+
+}  // namespace
+
+void MotionOptions::add_options(CLI::App& command) {
+    group_ = command.add_option_group("The eye in motion",
+                                      "With --time or --fps the pupil, the lens and the lids move");
+    number(group_->add_option("--time", time_s_,
+                              "Moment at which the eye looks; with --fps, of frame 0"))
+        ->type_name("S");
+    positive_number(group_->add_option("--fps", fps_,
+                                       "Frames per second: each frame has its own moment, by its "
+                                       "number"))
+        ->type_name("F");
+    group_
+        ->add_option("--motion", motion_,
+                     "Turns of head and eye, which the vitreous follows: saccades, or a table with "
+                     "time_s, yaw_deg, pitch_deg, roll_deg (CSV)")
+        ->type_name("off|saccades|FILE")
+        ->capture_default_str();
+    group_
+        ->add_option("--blink", blink_,
+                     "auto: 15 times a minute; streaks: so that lashes move but lids cover "
+                     "nothing; moments in seconds (1.5,4), or a table with time_s")
+        ->type_name("off|auto|streaks|TIMES|FILE")
+        ->capture_default_str();
+    number(group_->add_option("--squint", squint_, "How far lids close against 30000 cd/m2"), 0,
+           0.8)
+        ->type_name("0..0.8")
+        ->capture_default_str();
+}
+
+std::string MotionOptions::first_given() const { return app::first_given(*group_); }
+
+void MotionOptions::check() const {
+    const std::string option = first_given();
+    if (!option.empty() && !alive()) {
+        throw InvalidArgument(option + ": is about an eye that moves: needs --time or --fps");
+    }
+}
+
+double MotionOptions::time_s(int frame) const {
+    return time_s_.value_or(0) + (fps_ ? frame / *fps_ : 0.0);
+}
+
+void MotionOptions::apply(eye::MotionSettings& settings, std::uint64_t seed) const {
+    if (motion_ == "saccades") {
+        settings.gaze = eye::Gaze::saccades(seed);
+    } else if (motion_ != "off") {
+        settings.gaze = gaze_from(motion_);
+    }
+    settings.blinks = blinks_from(blink_);
+    settings.squint = squint_;
+}
+
+nlohmann::ordered_json MotionOptions::report() const {
+    nlohmann::ordered_json json;
+    if (fps_) json["fps"] = *fps_;
+    json.update({{"motion", motion_}, {"blink", blink_}, {"squint", squint_}});
+    return json;
+}
+
+}  // namespace aureole::app

@@ -1,0 +1,40 @@
+// When the eye looks, and what moves in it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "aureole/eye/motion.h"
+
+namespace aureole::app {
+
+class MotionOptions {
+  public:
+    void add_options(CLI::App& command);
+
+    // Whether the eye lives, and not only is: --time or --fps.
+    bool alive() const { return time_s_ || fps_; }
+    bool has_rate() const { return fps_.has_value(); }
+    // The first of these options that was given, or nothing.
+    std::string first_given() const;
+    // Throws InvalidArgument for options without --time or --fps.
+    void check() const;
+
+    // Of a frame by its number.
+    double time_s(int frame) const;
+    // Gaze, blinks and squint. Reads files: throws FileError, InvalidArgument.
+    void apply(eye::MotionSettings& settings, std::uint64_t seed) const;
+    nlohmann::ordered_json report() const;
+
+  private:
+    CLI::Option_group* group_ = nullptr;
+    std::optional<double> time_s_;
+    std::optional<double> fps_;
+    std::string motion_ = "off";
+    std::string blink_ = "off";
+    double squint_ = 0.5;
+};
+
+}  // namespace aureole::app
