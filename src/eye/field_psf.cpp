@@ -35,7 +35,7 @@ struct Streaks {
     double share = 0;  // of the light, in streaks
 };
 
-// 6 n samples with n 7-smooth: what a transform takes.
+// The smallest even 7-smooth number of samples from `needed` on, `most` at most.
 int raster_samples(double needed, int most) {
     for (int samples = 64; samples < most; samples += 2) {
         int rest = samples;

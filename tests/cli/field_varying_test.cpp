@@ -14,7 +14,7 @@ using FieldVarying = CliTest;
 TEST_F(FieldVarying, ConservesEnergyAndReportsItsError) {
     write("in.exr", noise(48, 27, 3));
     const Outcome outcome =
-        run("glare in.exr -o out.exr --fov 50 --pupil 5 --field-varying 20 --json");
+        run("glare in.exr -o out.exr --fov 50 --pupil 5 --field-varying 30 --json");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
     const auto& energy = json["energy"];
