@@ -96,6 +96,7 @@ void IblCommand::add_options(CLI::App& command) {
 }
 
 void IblCommand::check() const {
+    if (folder.empty()) throw InvalidArgument("--output", "", "must name a folder");
     input.check();
     filtering.check(input.size());
     files.check();

@@ -130,11 +130,22 @@ void IblFiles::write_texture(const std::string& name, const io::Texture& texture
     io::TextureOptions as;
     as.format = texel_format(options_.texel);
     const io::TextureReport report = io::write_texture(path(file), texture, as);
-    if (report.clamped() > 0) {
+    if (report.too_large > 0) {
         session_.note(fmt::format(
             "{}: {} samples do not fit {} and were clamped (the largest is {:g}); --texel float "
-            "keeps them",
-            file, report.clamped(), options_.texel, report.largest));
+            "keeps {}",
+            file, report.too_large, options_.texel, report.largest,
+            options_.texel == "float" ? "all that are finite" : "them"));
+    }
+    if (report.negative > 0) {
+        session_.note(fmt::format("{}: {} negative samples became 0; {} has no sign", file,
+                                  report.negative, options_.texel));
+    }
+    if (report.not_numbers > 0) {
+        session_.note(
+            fmt::format("{}: {} samples are beyond what floats can compute with and "
+                        "became 0; lower --exposure",
+                        file, report.not_numbers));
     }
     session_.json()["clamped_samples"][file] = report.clamped();
 }

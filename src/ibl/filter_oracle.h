@@ -32,16 +32,30 @@ class FilterOracle {
             const double q = 1 - (1 - a2) * (1 + cosine) / 2;
             return std::max(cosine, 0.0) / (q * q);
         };
+        std::array<FaceAxes, kFaces> in_face;
+        for (int face = 0; face < kFaces; ++face) {
+            const double along = dot(n, direction_of({face, 0, 0}));
+            in_face[static_cast<std::size_t>(face)] = {
+                along, std::sqrt(2.0) * dot(n, direction_of({face, 1, 0})) - along,
+                std::sqrt(2.0) * dot(n, direction_of({face, 0, 1})) - along};
+        }
         std::array<double, 3> sum = {};
         for (const Patch& patch : patches_) {
             const double texel = 4.0 / (size_ * static_cast<double>(size_)) / 6;  // its spread
             const double gap =
                 std::max(0.0, std::sqrt(2 - 2 * dot(n, patch.middle)) - patch.radius);
+            if (gap > std::sqrt(2.0) + 1.5 / size_) continue;  // below the horizon to its corners
             if (texel < kFar * (a2 + (1 - a2) * gap * gap / 4)) {
-                for (std::size_t i = patch.first; i < patch.end; ++i) {
-                    const double w =
-                        solid_angle_[i] * weight(n.x * x_[i] + n.y * y_[i] + n.z * z_[i]);
-                    for (std::size_t c = 0; c < 3; ++c) sum[c] += w * radiance_[c][i];
+                // Weights first: a loop that compilers take several texels of at a time.
+                std::array<double, kPatchSide * kPatchSide> weights;
+                const std::size_t count = patch.end - patch.first;
+                for (std::size_t k = 0; k < count; ++k) {
+                    const std::size_t i = patch.first + k;
+                    weights[k] = solid_angle_[i] * weight(n.x * x_[i] + n.y * y_[i] + n.z * z_[i]);
+                }
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double* const radiance = radiance_[c].data() + patch.first;
+                    for (std::size_t k = 0; k < count; ++k) sum[c] += weights[k] * radiance[k];
                 }
                 continue;
             }
@@ -53,8 +67,8 @@ class FilterOracle {
                                   : relative < 1e-2 ? 2
                                   : relative < .2   ? 6
                                                     : 16;
-                const double w =
-                    near_weight(patch, static_cast<int>(i - patch.first), parts, n, weight);
+                const double w = near_weight(patch, static_cast<int>(i - patch.first), parts,
+                                             in_face[static_cast<std::size_t>(patch.face)], weight);
                 for (std::size_t c = 0; c < 3; ++c) sum[c] += w * radiance_[c][i];
             }
         }
@@ -73,6 +87,11 @@ class FilterOracle {
         std::size_t first, end;
         Direction middle;
         double radius;
+    };
+
+    // The components of a direction along the axes of a face.
+    struct FaceAxes {
+        double along, right, down;
     };
 
     // Over the hemisphere, in x with 1 - N.L = x^4, dense where the lobe is.
@@ -112,15 +131,11 @@ class FilterOracle {
     }
 
     template <class Weight>
-    double near_weight(const Patch& patch, int index, int parts, const Direction& n,
+    double near_weight(const Patch& patch, int index, int parts, const FaceAxes& n,
                        const Weight& weight) const {
         const int x = patch.x + index % patch.width;
         const int y = patch.y + index / patch.width;
         const double step = 2.0 / (size_ * parts);
-        // n in the axes of the face.
-        const double along = dot(n, direction_of({patch.face, 0, 0}));
-        const double right = std::sqrt(2.0) * dot(n, direction_of({patch.face, 1, 0})) - along;
-        const double down = std::sqrt(2.0) * dot(n, direction_of({patch.face, 0, 1})) - along;
         const auto gauss = [&](int texel, int k) {  // two points per part
             return 2.0 * texel / size_ - 1 +
                    step * (k / 2 + 0.5 + (k % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.0));
@@ -132,7 +147,8 @@ class FilterOracle {
                 const double s = gauss(x, u);
                 const double h = 1 + s * s + t * t;
                 const double root = std::sqrt(h);
-                sum += step * step / 4 / (h * root) * weight((along + s * right + t * down) / root);
+                sum += step * step / 4 / (h * root) *
+                       weight((n.along + s * n.right + t * n.down) / root);
             }
         }
         return sum;

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "aureole/base/random.h"
@@ -140,6 +143,10 @@ TEST_F(Ibl, EveryLayoutIsReadAsItWasWritten) {
     }
     report("ibl cube.exr --size 16 --levels 1 -o cross --format exr --arrange cross");
     EXPECT_TRUE(same("cross/level_0.exr"));
+    write("vertical-cross.exr", ibl::layout_from_cube(cube, ibl::Layout::kVerticalCross));
+    EXPECT_TRUE(same("vertical-cross.exr"));
+    write("vertical-strip.exr", ibl::layout_from_cube(cube, ibl::Layout::kVerticalStrip));
+    EXPECT_TRUE(same("vertical-strip.exr"));
     report("ibl cube.exr --size 16 --levels 1 -o faces --format exr --arrange faces");
     EXPECT_TRUE(
         same("faces/level_0_px.exr faces/level_0_nx.exr faces/level_0_py.exr "
@@ -236,6 +243,10 @@ TEST_F(Ibl, CountsWhatItReplacesAndClamps) {
     const Outcome outcome = run("ibl sky.exr --size 32 --levels 2 -o out");
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_TRUE(names_all(outcome.err, {"note:", "half", "--texel float"}));  // 1e6 > 65504
+    write("dark.exr", constant(64, 32, 3, -1));
+    const Outcome dark = run("ibl dark.exr --size 32 --levels 2 --texel rgb9e5 -o out");
+    EXPECT_TRUE(names_all(dark.err, {"note:", "negative", "rgb9e5"})) << dark.err;
+    EXPECT_EQ(dark.err.find("largest"), std::string::npos) << dark.err;
 }
 
 TEST_F(Ibl, PreviewIsTwoFigures) {
@@ -312,6 +323,35 @@ TEST_F(Ibl, NothingIsLeftOfAnUnfinishedSet) {
     EXPECT_EQ(run("ibl sky.exr --size 64 -o out", conditions).exit_code, 1);
     EXPECT_EQ(bytes("out/environment.dds"), old);
     EXPECT_EQ(names("out").size(), 4U);
+}
+
+// Interrupted while it filters: the set does not appear, and nothing else is left.
+TEST_F(Ibl, InterruptLeavesNothing) {
+    Image sky = soft_sky(64);
+    sky.at(5, 5, 1) = INFINITY;  // the note about it says that filtering begins
+    write("sky.exr", sky);
+    Program program(folder_.path(), "ibl sky.exr --size 512 --method exact -o out");
+    while (program.running() && program.err().find("infinity") == std::string::npos) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    program.signal(SIGINT);
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_TRUE(names_all(outcome.err, {"interrupted"}));
+    EXPECT_EQ(folder_.names(), (std::vector<std::string>{"sky.exr"}));
+}
+
+TEST_F(Ibl, FilesAreTheSameWithAnyNumberOfThreads) {
+    write("sky.exr", noise(64, 32, 3));
+    for (const char* method : {"gather", "fis", "progressive"}) {
+        const std::string words =
+            "ibl sky.exr --size 32 --levels 3 --texel float --method " + std::string(method);
+        report(words + " --threads 1 -o one");
+        report(words + " --threads 3 -o three");
+        for (const std::string& name : names("one")) {
+            EXPECT_TRUE(bytes("one/" + name) == bytes("three/" + name)) << method << " " << name;
+        }
+    }
 }
 
 TEST_F(Ibl, SizesNeedNoPowersOfTwo) {
