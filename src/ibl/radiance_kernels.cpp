@@ -17,8 +17,8 @@ struct Texels {
     alignas(16) float value[3][4];
 };
 
-void make_leaves(const CubeMap& environment, int subdivision, int face, int y, int nodes,
-                 RadianceBlock* row) {
+RowLight make_leaves(const CubeMap& environment, int subdivision, int face, int y, int nodes,
+                     RadianceBlock* row) {
     const D4 d;
     const float side = 2 / static_cast<float>(nodes);
     const FaceFrame& frame = kFaceFrames[static_cast<std::size_t>(face)];
@@ -32,6 +32,7 @@ void make_leaves(const CubeMap& environment, int subdivision, int face, int y, i
     const auto centre = [side](int i) { return (static_cast<float>(i) + 0.5F) * side - 1; };
     alignas(16) float s[4];
     alignas(16) const float t[4] = {centre(y0), centre(y0), centre(y0 + 1), centre(y0 + 1)};
+    V4 light[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     for (int block = 0; 2 * block < nodes; ++block) {
         const int x0 = 2 * block;
         const int x1 = x0 + 1 < nodes ? x0 + 1 : x0;
@@ -62,7 +63,14 @@ void make_leaves(const CubeMap& environment, int subdivision, int face, int y, i
             if (x0 + i % 2 < nodes && y0 + i / 2 < nodes) continue;
             out.r[i] = out.g[i] = out.b[i] = out.solid_angle_sr[i] = 0;
         }
+        for (int i = 0; i < 4; i += kFourLanes) {
+            light[0] = hn::Add(light[0], hn::Abs(hn::Load(d, out.r + i)));
+            light[1] = hn::Add(light[1], hn::Abs(hn::Load(d, out.g + i)));
+            light[2] = hn::Add(light[2], hn::Abs(hn::Load(d, out.b + i)));
+        }
     }
+    return {hn::GetLane(hn::SumOfLanes(d, light[0])), hn::GetLane(hn::SumOfLanes(d, light[1])),
+            hn::GetLane(hn::SumOfLanes(d, light[2]))};
 }
 
 }  // namespace
