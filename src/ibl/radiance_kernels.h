@@ -10,6 +10,10 @@ struct RadianceKernels {
     // divided into subdivision x subdivision nodes. Returns their light.
     RowLight (*make_leaves)(const CubeMap& environment, int subdivision, int face, int y, int nodes,
                             RadianceBlock* row);
+    // One row of blocks of `parents` from those of the level below. `scales`: what the dipole of
+    // each channel is multiplied by.
+    void (*join_row)(const RadianceLevel& children, const RadianceLevel& parents,
+                     const RowLight& scales, int face, int y);
 };
 
 const RadianceKernels& radiance_kernels();
