@@ -159,7 +159,9 @@ TEST(RadianceTree, DipolesBoundWhereColorsAre) {
             for (const Direction& d : dipoles) largest = std::max(largest, std::sqrt(dot(d, d)));
             const double bound = level.dipole_row(face, y / 2)[4 * (x / 2) + node];
             EXPECT_GE(bound, largest * (1 - 1e-3) - 1e-10);
-            if (k == 1) EXPECT_LE(bound, largest * (1 + 1e-3) + 1e-10);
+            if (k == 1) {
+                EXPECT_LE(bound, largest * (1 + 1e-3) + 1e-10);
+            }
         }
     }
 }
