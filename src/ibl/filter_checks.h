@@ -23,9 +23,13 @@ inline double luminance_of(const std::array<double, 3>& rgb) {
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
+inline std::array<double, 3> color_at(const CubeMap& map, const Output& at) {
+    return {map.at(at.face, at.x, at.y, 0), map.at(at.face, at.x, at.y, 1),
+            map.at(at.face, at.x, at.y, 2)};
+}
+
 inline double luminance_at(const CubeMap& map, const Output& at) {
-    return luminance_of({map.at(at.face, at.x, at.y, 0), map.at(at.face, at.x, at.y, 1),
-                         map.at(at.face, at.x, at.y, 2)});
+    return luminance_of(color_at(map, at));
 }
 
 inline std::vector<CubeMap> filtered_levels(const CubeMap& environment,
@@ -45,15 +49,24 @@ inline std::vector<CubeMap> filtered_levels(const CubeMap& environment,
     return maps;
 }
 
-// Luminances that `outputs` of a level of `size` texels per side should have.
-inline std::vector<double> true_luminances(const FilterOracle& oracle, double alpha, int size,
-                                           const std::vector<Output>& outputs) {
-    std::vector<double> values(outputs.size());
+// Colors that `outputs` of a level of `size` texels per side should have.
+inline std::vector<std::array<double, 3>> true_colors(const FilterOracle& oracle, double alpha,
+                                                      int size,
+                                                      const std::vector<Output>& outputs) {
+    std::vector<std::array<double, 3>> values(outputs.size());
     parallel_for(outputs.size(), [&](std::size_t i, int) {
         const Output& at = outputs[i];
-        values[i] =
-            luminance_of(oracle.filtered(texel_direction(at.face, at.x, at.y, size), alpha));
+        values[i] = oracle.filtered(texel_direction(at.face, at.x, at.y, size), alpha);
     });
+    return values;
+}
+
+inline std::vector<double> true_luminances(const FilterOracle& oracle, double alpha, int size,
+                                           const std::vector<Output>& outputs) {
+    std::vector<double> values;
+    for (const auto& rgb : true_colors(oracle, alpha, size, outputs)) {
+        values.push_back(luminance_of(rgb));
+    }
     return values;
 }
 
@@ -104,35 +117,50 @@ class LevelTruth {
             if (!is_around(at)) others_.outputs.push_back(at);
         }
         for (Sample* sample : {&around_, &others_}) {
-            sample->truth = true_luminances(oracle, alpha, size, sample->outputs);
+            sample->truth = true_colors(oracle, alpha, size, sample->outputs);
         }
     }
 
     // Root mean square error of luminance over the whole level, in means of the level.
-    double rms_error(const CubeMap& level) const {
-        double mean = 0;
-        for (const Output& at : all_outputs(level.size())) {
-            mean += luminance_at(level, at) / static_cast<double>(outputs_);
+    double rms_error(const CubeMap& level) const { return rms_error(level, luminance_of); }
+
+    // That of the worst channel, each in its own means.
+    double worst_channel_error(const CubeMap& level) const {
+        double worst = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto channel = [c](const std::array<double, 3>& rgb) { return rgb[c]; };
+            worst = std::max(worst, rms_error(level, channel));
         }
-        const double share =
-            static_cast<double>(around_.outputs.size()) / static_cast<double>(outputs_);
-        return std::sqrt(share * around_.mean_square(level) +
-                         (1 - share) * others_.mean_square(level)) /
-               mean;
+        return worst;
     }
 
   private:
     struct Sample {
         std::vector<Output> outputs;
-        std::vector<double> truth;
-        double mean_square(const CubeMap& level) const {
+        std::vector<std::array<double, 3>> truth;
+
+        template <class Value>
+        double mean_square(const CubeMap& level, const Value& value) const {
             double sum = 0;
             for (std::size_t i = 0; i < outputs.size(); ++i) {
-                sum += std::pow(luminance_at(level, outputs[i]) - truth[i], 2);
+                sum += std::pow(value(color_at(level, outputs[i])) - value(truth[i]), 2);
             }
             return outputs.empty() ? 0 : sum / static_cast<double>(outputs.size());
         }
     };
+
+    template <class Value>
+    double rms_error(const CubeMap& level, const Value& value) const {
+        double mean = 0;
+        for (const Output& at : all_outputs(level.size())) {
+            mean += value(color_at(level, at)) / static_cast<double>(outputs_);
+        }
+        const double share =
+            static_cast<double>(around_.outputs.size()) / static_cast<double>(outputs_);
+        return std::sqrt(share * around_.mean_square(level, value) +
+                         (1 - share) * others_.mean_square(level, value)) /
+               mean;
+    }
 
     std::size_t outputs_;
     Sample around_;

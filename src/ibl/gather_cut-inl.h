@@ -49,6 +49,7 @@ struct Nodes {
     V4 moment;
     V4 r, g, b;
     V4 solid_angle_sr;
+    V4 dipole;
 };
 
 HWY_INLINE Nodes seen_from(const GroupPoints& points, V4 x, V4 y, V4 z) {
@@ -61,7 +62,9 @@ HWY_INLINE Nodes seen_from(const GroupPoints& points, V4 x, V4 y, V4 z) {
     return nodes;
 }
 
-HWY_INLINE Nodes seen_from(const GroupPoints& points, const RadianceBlock& block, int i) {
+// `dipoles` are those of the block; none in level 0.
+HWY_INLINE Nodes seen_from(const GroupPoints& points, const RadianceBlock& block,
+                           const float* dipoles, int i) {
     const D4 d;
     Nodes nodes = seen_from(points, hn::Load(d, block.x + i), hn::Load(d, block.y + i),
                             hn::Load(d, block.z + i));
@@ -70,6 +73,7 @@ HWY_INLINE Nodes seen_from(const GroupPoints& points, const RadianceBlock& block
     nodes.g = hn::Load(d, block.g + i);
     nodes.b = hn::Load(d, block.b + i);
     nodes.solid_angle_sr = hn::Load(d, block.solid_angle_sr + i);
+    nodes.dipole = dipoles == nullptr ? hn::Zero(d) : hn::LoadU(d, dipoles + i);
     return nodes;
 }
 
@@ -119,7 +123,9 @@ HWY_INLINE Demands demands_of(const GatherLobe& lobe, const GroupPoints& points,
     const V4 distance2 = hn::Add(square, set4(lobe.pole));
     auto smooth = hn::Ge(distance2, set4(lobe.least_distance2 * radius2));
     if constexpr (kShape == LobeShape::kCosine) {
-        open = hn::And(horizon, hn::Gt(hn::Mul(energy, spread), set4(lobe.most_horizon_error)));
+        const auto across =
+            hn::And(horizon, hn::Gt(hn::Mul(energy, spread), set4(lobe.most_horizon_error)));
+        open = hn::Or(across, hn::Gt(nodes.dipole, set4(lobe.most_dipole)));
         smooth = hn::AndNot(horizon, smooth);
     } else {
         // At the output that is nearest to it.
@@ -133,7 +139,11 @@ HWY_INLINE Demands demands_of(const GatherLobe& lobe, const GroupPoints& points,
             hn::Or(hn::Gt(size, set4(lobe.most_size)), hn::Gt(relative, set4(lobe.most_spread)));
         const auto wrong =
             hn::Gt(hn::Mul(weight, hn::Mul(relative, relative)), set4(lobe.most_error));
-        open = hn::Or(wide, wrong);
+        // The slope of 1/q^2 is 2 r^3 scale |N - L|, at most 2 r^2 sqrt(2 scale r).
+        const V4 tilt = hn::Mul(nodes.dipole, hn::Mul(r, r));
+        const auto colored = hn::Gt(hn::Mul(hn::Mul(tilt, tilt), hn::Mul(set4(8 * lobe.scale), r)),
+                                    set4(lobe.most_dipole * lobe.most_dipole));
+        open = hn::Or(hn::Or(wide, wrong), colored);
         const V4 steep = hn::Mul(distance2, distance2);
         smooth = hn::And(smooth, hn::Lt(hn::Mul(weight, set4(radius2 * radius2)),
                                         hn::Mul(steep, set4(lobe.most_interpolation_error))));
@@ -230,8 +240,8 @@ void add_split_texel(const GatherLobe& lobe, const GroupPoints& points, const Ra
                      int node, const Place& place, int nodes_per_side, Records& to) {
     constexpr int kMostSplits = 4;
     const D4 d;
-    // As in ask(): the neglected part of a node goes as its size to the power of 6, so that of
-    // each of four parts of it is a 64th, and of all four a 16th.
+    // As in demands_of(): the neglected part of a node goes as its size to the power of 6, so that
+    // of each of four parts of it is a 64th, and of all four a 16th.
     const float dx = block.x[node] - points.centre[0];
     const float dy = block.y[node] - points.centre[1];
     const float dz = block.z[node] - points.centre[2];
@@ -307,11 +317,13 @@ void cut(const CutTask& task, Stack& stack, Records& records, Stack* deferred) {
         const Place place = unpacked(ref.place);
         const RadianceLevel& level = task.levels[ref.level];
         const RadianceBlock& block = level.row(place.face, place.y)[place.x];
+        const float* const dipoles =
+            ref.level == 0 ? nullptr : level.dipole_row(place.face, place.y) + 4 * place.x;
         make_room<kShape>(lobe, points, 4, records);
         unsigned open = 0;
         unsigned defer = 0;
         for (int i = 0; i < 4; i += kFourLanes) {
-            const Nodes nodes = seen_from(points, block, i);
+            const Nodes nodes = seen_from(points, block, dipoles, i);
             const Demands demands = demands_of<kShape>(lobe, points, nodes);
             const unsigned live = demands.live & (ref.nodes >> i);
             unsigned take = live & ~demands.open;

@@ -43,6 +43,18 @@ TEST(GatherFilterSlow, IsRightOnEveryMap) {
     }
 }
 
+// Lights of saturated colors beside one another: the tree's centroids are those of luminance.
+TEST(GatherFilter, ColorsAreAsGoodAsLuminance) {
+    for (const CubeMap& map : {red_sun_environment(64), patches_environment(64)}) {
+        const FilterOracle oracle(map);
+        for (const double alpha : {.1, .5, 1.0}) {
+            const CubeMap level = filtered_levels(map, {{16, alpha, 0}}, kNormal)[0];
+            EXPECT_LT(LevelTruth(map, oracle, alpha, 16, 60).worst_channel_error(level), 1e-3)
+                << alpha;
+        }
+    }
+}
+
 TEST(GatherFilter, QualitiesAreInOrder) {
     const CubeMap map = studio_environment(64);
     const double draft = rms_error(map, .06, FilterQuality::kDraft, 32);

@@ -16,14 +16,14 @@ constexpr double kNarrowest = 0.002;
 constexpr float kNoPole = 4;
 
 struct Limits {
-    float size, spread, error, horizon_error, distance2, interpolation_error;
+    float size, spread, error, dipole, horizon_error, distance2, interpolation_error;
 };
 
 // Found by measuring: docs/environment_filtering.md has errors and times.
 constexpr std::array<Limits, 3> kLimits = {{
-    {2.0F, 0.3F, 3e-3F, 1e-3F, 3, 1e-2F},
-    {0.8F, 0.3F, 1e-4F, 1e-4F, 5, 1e-3F},
-    {0.5F, 0.3F, 1e-5F, 3e-5F, 8, 1e-4F},
+    {2.0F, 0.3F, 3e-3F, 2.5e-4F, 1e-3F, 3, 1e-2F},
+    {0.8F, 0.3F, 1e-4F, 3.5e-5F, 1e-4F, 5, 1e-3F},
+    {0.5F, 0.3F, 1e-5F, 1e-5F, 3e-5F, 8, 1e-4F},
 }};
 
 }  // namespace
@@ -53,6 +53,7 @@ GatherLobe gather_lobe(double alpha, FilterQuality quality) {
     lobe.most_size = limits.size;
     lobe.most_spread = limits.spread;
     lobe.most_error = limits.error;
+    lobe.most_dipole = limits.dipole * lobe.total / static_cast<float>(4 * kPi * std::sqrt(alpha));
     lobe.most_horizon_error = limits.horizon_error;
     lobe.least_distance2 = limits.distance2;
     lobe.most_interpolation_error = limits.interpolation_error;

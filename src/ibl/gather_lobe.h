@@ -34,6 +34,9 @@ struct GatherLobe {
     float most_spread = 0;
     // If the part of its light beyond second order does.
     float most_error = 0;
+    // If the first order of w, which vanishes for luminance, but not for each color, does: the
+    // slope of w times the dipole of radiance_tree.h, in shares of total / (4 pi) here.
+    float most_dipole = 0;
     // If it lies across the horizon, where w has an edge, and this does.
     float most_horizon_error = 0;
     // The weight of a node is interpolated over a tile of radius rho if D^2 = |N - L|^2 + pole,

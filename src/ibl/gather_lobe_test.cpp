@@ -46,6 +46,8 @@ TEST(GatherLobe, BetterQualitiesAllowLess) {
         const GatherLobe high = gather_lobe(alpha, FilterQuality::kHigh);
         EXPECT_GT(draft.most_error, normal.most_error);
         EXPECT_GT(normal.most_error, high.most_error);
+        EXPECT_GT(draft.most_dipole, normal.most_dipole);
+        EXPECT_GT(normal.most_dipole, high.most_dipole);
         EXPECT_GT(draft.most_interpolation_error, high.most_interpolation_error);
         EXPECT_LT(draft.least_distance2, high.least_distance2);
     }

@@ -35,14 +35,23 @@ inline constexpr std::array<float, 3> kLuminanceWeights = {0.2126F, 0.7152F, 0.0
 // The blocks of one level: per_side x per_side on each face, row by row, face by face.
 struct RadianceLevel {
     RadianceBlock* blocks = nullptr;
+    // Four per block: how far from c its colours are. With E the radiance x solid angle of a part
+    // of the node, a bound of the largest over the channels of |sum E (L - c)|, each as a share of
+    // all that channel's light. None in level 0, as a texel has all of its colours in one place.
+    float* dipoles = nullptr;
     int nodes_per_side = 0;
     int per_side = 0;
 
-    RadianceBlock* row(int face, int y) const {
-        return blocks +
-               static_cast<std::size_t>(face * per_side + y) * static_cast<std::size_t>(per_side);
+    RadianceBlock* row(int face, int y) const { return blocks + blocks_before(face, y); }
+    float* dipole_row(int face, int y) const { return dipoles + 4 * blocks_before(face, y); }
+
+    std::size_t blocks_before(int face, int y) const {
+        return static_cast<std::size_t>(face * per_side + y) * static_cast<std::size_t>(per_side);
     }
 };
+
+// Sums of the absolute values of r, g and b.
+using RowLight = std::array<float, 3>;
 
 class RadianceTree {
   public:
@@ -61,7 +70,9 @@ class RadianceTree {
   private:
     int subdivision_ = 1;
     std::vector<std::vector<RadianceBlock, AlignedAllocator<RadianceBlock>>> storage_;
+    std::vector<std::vector<float>> dipoles_;
     std::vector<RadianceLevel> levels_;
+    std::vector<RowLight> rows_;  // of blocks of level 0
     double mean_luminance_ = 0;
 };
 

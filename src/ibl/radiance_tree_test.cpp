@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "aureole/base/random.h"
@@ -120,6 +121,64 @@ TEST(RadianceTree, TexelsAreIntegrated) {
         EXPECT_NEAR(block.moment[j] / moment, 1, 1e-3);
         EXPECT_NEAR(block.solid_angle_sr[j] / texel_solid_angle_sr(x, y, kSize), 1, 1e-6);
     }
+}
+
+// Against sums over the texels of every node, in shares of each channel's light. A node of level 1
+// knows its dipole; others bound it.
+TEST(RadianceTree, DipolesBoundWhereColorsAre) {
+    constexpr int kSize = 68;
+    const CubeMap map = random_environment(kSize, 0);
+    RadianceTree tree(kSize);
+    tree.build(map);
+    const auto mean = mean_radiance(map);
+    const RadianceLevel& texels = tree.levels()[0];
+    for (std::size_t k = 1; k < tree.levels().size(); ++k) {
+        const RadianceLevel& level = tree.levels()[k];
+        for (int i = 0; i < kFaces * level.nodes_per_side * level.nodes_per_side; ++i) {
+            const int x = i % level.nodes_per_side;
+            const int y = i / level.nodes_per_side % level.nodes_per_side;
+            const int face = i / (level.nodes_per_side * level.nodes_per_side);
+            const RadianceBlock& block = level.row(face, y / 2)[x / 2];
+            const int node = x % 2 + 2 * (y % 2);
+            std::array<Direction, 3> dipoles;
+            const int side = 1 << k;
+            for (int v = y * side; v < std::min((y + 1) * side, kSize); ++v) {
+                for (int u = x * side; u < std::min((x + 1) * side, kSize); ++u) {
+                    const RadianceBlock& texel = texels.row(face, v / 2)[u / 2];
+                    const int j = u % 2 + 2 * (v % 2);
+                    const std::array light = {texel.r[j], texel.g[j], texel.b[j]};
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const double share = light[c] / (4 * kPi * mean[c]);
+                        dipoles[c].x += share * (texel.x[j] - block.x[node]);
+                        dipoles[c].y += share * (texel.y[j] - block.y[node]);
+                        dipoles[c].z += share * (texel.z[j] - block.z[node]);
+                    }
+                }
+            }
+            double largest = 0;
+            for (const Direction& d : dipoles) largest = std::max(largest, std::sqrt(dot(d, d)));
+            const double bound = level.dipole_row(face, y / 2)[4 * (x / 2) + node];
+            EXPECT_GE(bound, largest * (1 - 1e-3) - 1e-10);
+            if (k == 1) {
+                EXPECT_LE(bound, largest * (1 + 1e-3) + 1e-10);
+            }
+        }
+    }
+}
+
+// One color: rounding.
+TEST(RadianceTree, GreyHasNoDipole) {
+    RadianceTree tree(64);
+    tree.build(interior_environment(64));
+    const double colored = tree.levels().back().dipole_row(4, 0)[0];
+    CubeMap grey = interior_environment(64);
+    for (int i = 0; i < kFaces * 64; ++i) {
+        for (int x = 0; x < 64; ++x) {
+            for (const int c : {0, 2}) grey.stacked().at(x, i, c) = grey.stacked().at(x, i, 1);
+        }
+    }
+    tree.build(grey);
+    EXPECT_LT(tree.levels().back().dipole_row(4, 0)[0], 1e-2 * colored);
 }
 
 // All light of a node in one of its texels: it is where the texel is, and as small.

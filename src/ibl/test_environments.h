@@ -162,4 +162,32 @@ inline CubeMap sun_environment(int size) {
     return map;
 }
 
+// A low, saturated red sun with a wide glow in a blue sky: luminance and color come from different
+// places.
+inline CubeMap red_sun_environment(int size) {
+    const Direction sun = normalized({0.75, 0.12, -0.65});
+    CubeMap map = make_environment(size, [&](const Direction& d) {
+        const double near = std::max(0.0, dot(d, sun));
+        if (d.y < 0) {
+            return sum(scaled({0.05F, 0.08F, 0.12F}, 1 + 0.5 * std::sin(9 * d.x)),
+                       scaled({1.0F, 0.2F, 0.02F}, 0.3 * std::pow(near, 20)));
+        }
+        return sum(scaled({0.05F, 0.2F, 0.8F}, 0.3 + 0.7 * d.y),
+                   scaled({1.0F, 0.2F, 0.02F}, 6 * std::pow(near, 60)));
+    });
+    const auto [face, x, y] = texel_of(sun, size);
+    set_texel(map, face, x, y, scaled({1.0F, 0.1F, 0.01F}, 3 / texel_solid_angle_sr(x, y, size)));
+    return map;
+}
+
+// Saturated red and blue patches on green.
+inline CubeMap patches_environment(int size) {
+    return make_environment(size, [](const Direction& d) {
+        const double pattern = std::sin(5 * d.x + 1) * std::sin(6 * d.y) * std::sin(7 * d.z + 2);
+        if (pattern > 0.3) return Radiance{4, 0.02F, 0.05F};
+        if (pattern < -0.3) return Radiance{0.02F, 0.05F, 6};
+        return Radiance{0.1F, 0.6F, 0.1F};
+    });
+}
+
 }  // namespace aureole::ibl
