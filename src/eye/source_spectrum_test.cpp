@@ -69,8 +69,8 @@ double largest_departure(Component component, Illuminant illuminant) {
 TEST(SourceSpectrum, RingsOfSodiumHaveTheColourOfTheLamp) {
     for (const Component component : {Component::kBloom, Component::kStreaks}) {
         EXPECT_LT(largest_departure(component, Illuminant::kSodium), 1e-3);
-        EXPECT_GT(largest_departure(component, Illuminant::kD65), 0.05);
-        EXPECT_GT(largest_departure(component, Illuminant::kMercury), 0.05);
+        EXPECT_GT(largest_departure(component, Illuminant::kD65), 0.03);
+        EXPECT_GT(largest_departure(component, Illuminant::kMercury), 0.03);
     }
 }
 
