@@ -35,7 +35,9 @@ bool EyeObserver::adapt(const io::Picture& picture) {
 
 std::optional<wave::Psf> EyeObserver::psf(const View& display, const View& data) {
     eye_ = options_.eye(*metered_cd_m2_, display);
-    return eye::eye_psf(eye_, wave::KernelGrid::full_reach(data), {}, &session_);
+    eye::EyePsfOptions options;
+    options.spectral = options_.sampling();
+    return eye::eye_psf(eye_, wave::KernelGrid::full_reach(data), options, &session_);
 }
 
 std::optional<wave::VaryingPsf> EyeObserver::varying_psf(const View& display, const View& data) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "aureole/base/units.h"
+#include "aureole/color/illuminant.h"
 #include "aureole/eye/pupil.h"
 #include "option_checks.h"
 
@@ -67,6 +68,11 @@ void EyeOptions::add_options_to_group() {
                  100)
         ->type_name("N")
         ->capture_default_str();
+    one_of(group.add_option("--source-spectrum", source_spectrum_,
+                            "Spectrum of the lights: it makes the colours of diffraction. A light "
+                            "keeps its own colour in sum"),
+           {"d65", "tungsten", "sodium", "high-pressure-sodium", "mercury", "led"})
+        ->capture_default_str();
     seed_number(group.add_option("--seed", seed_, "Another seed is another eye"))
         ->type_name("N")
         ->capture_default_str();
@@ -125,6 +131,12 @@ eye::Eye EyeOptions::eye(double metered_cd_m2, const View& view) const {
     return eye;
 }
 
+eye::SpectralSampling EyeOptions::sampling() const {
+    eye::SpectralSampling sampling;
+    sampling.illuminant = color::illuminant_from_name(source_spectrum_);
+    return sampling;
+}
+
 nlohmann::ordered_json EyeOptions::report(const eye::Eye& eye, double metered_cd_m2) const {
     nlohmann::ordered_json json = {{"preset", preset_},
                                    {"pupil_mm", eye.pupil_diameter_mm},
@@ -136,6 +148,7 @@ nlohmann::ordered_json EyeOptions::report(const eye::Eye& eye, double metered_cd
                                    {"streaks", eye.streaks},
                                    {"eyelid", eye.eyelid},
                                    {"eyelashes", eye.eyelashes},
+                                   {"source_spectrum", source_spectrum_},
                                    {"seed", eye.seed}};
     if (pupil_ == "auto") {
         json["pupil_model"] = pupil_model_;

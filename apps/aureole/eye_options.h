@@ -8,6 +8,7 @@
 #include <string>
 
 #include "aureole/eye/anatomy.h"
+#include "aureole/eye/eye_psf.h"
 #include "aureole/eye/motion.h"
 #include "aureole/image/view.h"
 
@@ -38,6 +39,8 @@ class EyeOptions {
     void apply_pupil(eye::MotionSettings& settings, const View& view) const;
     // The eye of the options, looking at a view. `metered_cd_m2` is used if needs_adaptation().
     eye::Eye eye(double metered_cd_m2, const View& view) const;
+    // The light that it sees, by --source-spectrum.
+    eye::SpectralSampling sampling() const;
     // Every value of that eye, and where it came from.
     nlohmann::ordered_json report(const eye::Eye& eye, double metered_cd_m2) const;
 
@@ -59,6 +62,7 @@ class EyeOptions {
     std::string adaptation_ = "auto";
     double eyelid_ = 0;
     int eyelashes_ = 7;
+    std::string source_spectrum_ = "d65";
     std::uint64_t seed_ = 1;
 };
 

@@ -84,14 +84,20 @@ void PsfCommand::add_options(CLI::App& command) {
 }
 
 wave::Psf PsfCommand::compute(const eye::Eye& eye, const wave::KernelGrid& grid) {
-    if (component == "all") return eye::eye_psf(eye, grid, {}, &session);
-    if (component == "joint") return eye::joint_psf(eye, grid, {}, &session);
+    if (component == "joint") {
+        eye::JointPsfOptions options;
+        options.spectral = eye_options.sampling();
+        return eye::joint_psf(eye, grid, options, &session);
+    }
+    eye::EyePsfOptions options;
+    options.spectral = eye_options.sampling();
+    if (component == "all") return eye::eye_psf(eye, grid, options, &session);
     const std::map<std::string, eye::Component> components = {
         {"bloom", eye::Component::kBloom},
         {"corona", eye::Component::kCorona},
         {"halo", eye::Component::kHalo},
         {"streaks", eye::Component::kStreaks}};
-    return eye::eye_component(components.at(component), eye, grid, {}, &session);
+    return eye::eye_component(components.at(component), eye, grid, options, &session);
 }
 
 void PsfCommand::check() {

@@ -1,6 +1,7 @@
 #include "aureole/color/spectrum.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -35,27 +36,64 @@ double sum_of_lobes(const Lobe (&lobes)[kCount], double wavelength_nm) {
     return sum;
 }
 
-constexpr double kD65[] = {
-#include "color/d65.inc"
-};
-constexpr double kD65FirstNm = 380;
-constexpr double kD65StepNm = 10;
-
 // The observer changes by less than 1 % per nanometre, D65 has a kink every ten: the midpoint
 // rule at this step integrates a band to 1e-4.
 constexpr double kIntegrationStepNm = 1;
 
-// Tristimulus values of the light between two wavelengths.
-Xyz integrate(Illuminant illuminant, double low_nm, double high_nm) {
+// A component whose positive and negative light cancel to less than this share of their sum
+// has no colour that its weights could be relative to.
+constexpr double kLeastNetLight = 0.1;
+
+template <class Visit>
+void over_steps(Illuminant illuminant, double low_nm, double high_nm, const Visit& visit) {
     const int steps =
         std::max(1, static_cast<int>(std::ceil((high_nm - low_nm) / kIntegrationStepNm)));
     const double step_nm = (high_nm - low_nm) / steps;
-    Xyz result{};
     for (int i = 0; i < steps; ++i) {
         const double wavelength_nm = low_nm + (i + 0.5) * step_nm;
-        const Xyz observer = cie_1931_observer(wavelength_nm);
-        const double power = relative_power(illuminant, wavelength_nm) * step_nm;
-        for (std::size_t c = 0; c < 3; ++c) result[c] += observer[c] * power;
+        visit(wavelength_nm, relative_power(illuminant, wavelength_nm) * step_nm);
+    }
+}
+
+void add(Xyz& sum, double wavelength_nm, double power) {
+    const Xyz observer = cie_1931_observer(wavelength_nm);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += observer[c] * power;
+}
+
+// Tristimulus values of the light between two wavelengths, without lines.
+Xyz integrate(Illuminant illuminant, double low_nm, double high_nm) {
+    Xyz result{};
+    over_steps(illuminant, low_nm, high_nm,
+               [&](double wavelength_nm, double power) { add(result, wavelength_nm, power); });
+    return result;
+}
+
+// Every piece of the visible light of a source: steps of its continuum, and its lines.
+template <class Visit>
+void over_light(Illuminant illuminant, const Visit& visit) {
+    const SpectralRange visible;
+    over_steps(illuminant, visible.low_nm, visible.high_nm, visit);
+    for (const SpectralLine& line : spectral_lines(illuminant)) {
+        visit(line.wavelength_nm, line.power);
+    }
+}
+
+// Whether the weights of each component can be relative to the source's own colour.
+std::array<bool, 3> has_components(Illuminant illuminant) {
+    Rgb net{};
+    Rgb magnitude{};
+    over_light(illuminant, [&](double wavelength_nm, double power) {
+        Xyz xyz{};
+        add(xyz, wavelength_nm, power);
+        const Rgb rgb = rgb_from_xyz(xyz);
+        for (std::size_t c = 0; c < 3; ++c) {
+            net[c] += rgb[c];
+            magnitude[c] += std::abs(rgb[c]);
+        }
+    });
+    std::array<bool, 3> result{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        result[c] = std::abs(net[c]) >= kLeastNetLight * magnitude[c];
     }
     return result;
 }
@@ -67,13 +105,11 @@ Xyz cie_1931_observer(double wavelength_nm) {
             sum_of_lobes(kZ, wavelength_nm)};
 }
 
-double relative_power(Illuminant illuminant, double wavelength_nm) {
-    if (illuminant == Illuminant::kEqualEnergy) return 100;
-    constexpr int kLast = static_cast<int>(std::size(kD65)) - 1;
-    const double position =
-        std::clamp((wavelength_nm - kD65FirstNm) / kD65StepNm, 0.0, kLast * 1.0);
-    const int i = std::min(static_cast<int>(position), kLast - 1);
-    return kD65[i] + (position - i) * (kD65[i + 1] - kD65[i]);
+Xyz tristimulus(Illuminant illuminant) {
+    Xyz sum{};
+    over_light(illuminant,
+               [&](double wavelength_nm, double power) { add(sum, wavelength_nm, power); });
+    return {sum[0] / sum[1], 1, sum[2] / sum[1]};
 }
 
 std::vector<SpectralBand> sample_spectrum(int count, WavelengthSpacing spacing,
@@ -92,34 +128,44 @@ std::vector<SpectralBand> sample_spectrum(int count, WavelengthSpacing spacing,
                            : range.low_nm + (range.high_nm - range.low_nm) * t;
     };
 
-    std::vector<SpectralBand> bands(static_cast<std::size_t>(count));
+    std::vector<SpectralBand> bands;
     Rgb sum{};
     Rgb magnitude{};
     double sum_y = 0;
-    for (int i = 0; i < count; ++i) {
-        SpectralBand& band = bands[static_cast<std::size_t>(i)];
-        band.wavelength_nm = position_nm((i + 0.5) / count);
-        const Xyz xyz =
-            integrate(illuminant, position_nm(i * 1.0 / count), position_nm((i + 1.0) / count));
-        band.rgb = rgb_from_xyz(xyz);
-        band.y = xyz[1];
+    const auto add_band = [&](double wavelength_nm, const Xyz& xyz) {
+        if (xyz == Xyz{}) return;
+        const SpectralBand band{wavelength_nm, rgb_from_xyz(xyz), xyz[1]};
         sum_y += band.y;
         for (std::size_t c = 0; c < 3; ++c) {
             sum[c] += band.rgb[c];
             magnitude[c] += std::abs(band.rgb[c]);
         }
+        bands.push_back(band);
+    };
+    for (int i = 0; i < count; ++i) {
+        add_band(position_nm((i + 0.5) / count), integrate(illuminant, position_nm(i * 1.0 / count),
+                                                           position_nm((i + 1.0) / count)));
     }
+    for (const SpectralLine& line : spectral_lines(illuminant)) {
+        if (line.wavelength_nm < range.low_nm || line.wavelength_nm > range.high_nm) continue;
+        Xyz xyz{};
+        add(xyz, line.wavelength_nm, line.power);
+        add_band(line.wavelength_nm, xyz);
+    }
+    const std::array<bool, 3> relative = has_components(illuminant);
     for (std::size_t c = 0; c < 3; ++c) {
         // Outside the visible, or where the negative part of a component cancels the rest, the
         // component has no weight that could be scaled to 1.
-        if (!(std::abs(sum[c]) > 0.01 * magnitude[c]) || sum_y < 1e-6) {
+        if ((relative[c] && !(std::abs(sum[c]) > 0.01 * magnitude[c])) || sum_y < 1e-6) {
             throw InvalidArgument("spectral range (nm)", range_text,
                                   "must hold light of every RGB component; 380 to 770 does");
         }
     }
     for (SpectralBand& band : bands) {
-        for (std::size_t c = 0; c < 3; ++c) band.rgb[c] /= sum[c];
         band.y /= sum_y;
+        for (std::size_t c = 0; c < 3; ++c) {
+            band.rgb[c] = relative[c] ? band.rgb[c] / sum[c] : band.y;
+        }
     }
     return bands;
 }

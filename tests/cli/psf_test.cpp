@@ -1,6 +1,7 @@
 // aureole psf: kernels for this and other tools.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -101,6 +102,53 @@ TEST_F(PsfFile, AppliedByGlareIsTheEyeItself) {
         EXPECT_LT(largest_difference(eye, read("file.exr").image()), 1e-5 * largest(eye)) << view;
         EXPECT_GT(largest_difference(eye, read("in.exr").image()), 1e-2 * largest(eye)) << view;
     }
+}
+
+TEST_F(PsfFile, OfALampFollowsItsSpectrum) {
+    const std::string command = "psf --size 65 --width 480 --pupil 7 --component halo -o ";
+    ASSERT_EQ(run(command + "default.exr").exit_code, 0);
+    ASSERT_EQ(run(command + "d65.exr --source-spectrum d65").exit_code, 0);
+    EXPECT_TRUE(identical(read("default.exr").image(), read("d65.exr").image()));
+    // How far the channels are apart, over the brightest pixel.
+    const auto colourfulness = [&](const std::string& name) {
+        const Image image = read(name).image();
+        double apart = 0;
+        for (std::size_t i = 0; i < image.pixels(); ++i) {
+            apart = std::max(apart, std::abs(double{image.plane(0)[i]} - image.plane(2)[i]));
+        }
+        return apart / largest(image);
+    };
+    for (const std::string lamp : {"mercury", "led"}) {
+        const nlohmann::json json = report(command + "lamp.exr --source-spectrum " + lamp);
+        EXPECT_EQ(json["parameters"]["source_spectrum"], lamp);
+        EXPECT_GT(colourfulness("lamp.exr"), 0.1) << lamp;
+    }
+    ASSERT_EQ(run(command + "sodium.exr --source-spectrum sodium").exit_code, 0);
+    expect_complete("sodium.exr");
+    EXPECT_LT(colourfulness("sodium.exr"), 0.01);
+}
+
+TEST_F(PsfFile, SpectraAreKnownAndOfTheEye) {
+    const Outcome unknown = run("psf -o k.exr --size 9 --source-spectrum neon");
+    EXPECT_NE(unknown.exit_code, 0);
+    EXPECT_TRUE(names_all(unknown.err, {"--source-spectrum", "neon", "sodium"}));
+    const Outcome camera = run("psf -o k.exr --size 9 --observer camera --source-spectrum sodium");
+    EXPECT_NE(camera.exit_code, 0);
+    EXPECT_TRUE(names_all(camera.err, {"--source-spectrum", "eye"}));
+    EXPECT_FALSE(exists("k.exr"));
+}
+
+// `aureole glare` sees lights of the same spectrum.
+TEST_F(PsfFile, OfALampAppliedByGlareIsTheEyeItself) {
+    const std::string eye = " --fov 10 --pupil 7 --source-spectrum sodium";
+    ASSERT_EQ(run("scene point --width 48 --height 27 -o in.exr").exit_code, 0);
+    ASSERT_EQ(run("psf -o k.exr --size 95 --width 48" + eye).exit_code, 0);
+    ASSERT_EQ(run("glare in.exr -o eye.exr" + eye).exit_code, 0);
+    ASSERT_EQ(run("glare in.exr -o file.exr --fov 10 --psf k.exr").exit_code, 0);
+    ASSERT_EQ(run("glare in.exr -o white.exr --fov 10 --pupil 7").exit_code, 0);
+    const Image sodium = read("eye.exr").image();
+    EXPECT_LT(largest_difference(sodium, read("file.exr").image()), 1e-5 * largest(sodium));
+    EXPECT_GT(largest_difference(sodium, read("white.exr").image()), 1e-4 * largest(sodium));
 }
 
 TEST_F(PsfFile, ForOtherPixelsIsRefused) {

@@ -212,6 +212,39 @@ TEST(GlareLaws, WhiteLightMakesWhiteGlare) {
     EXPECT_NEAR(xy[1], 0.3290, 0.002);
 }
 
+// Nothing is compared with a threshold, so that an orange light that is dimmed, by half behind
+// a veil or to a hundredth, keeps the hue of its glare in every pixel.
+TEST(GlareLaws, ADimmedLightKeepsTheHueOfItsGlare) {
+    const View view = view_of(160, 90, 60, true);
+    for (const auto illuminant : {color::Illuminant::kD65, color::Illuminant::kSodium}) {
+        eye::EyePsfOptions options;
+        options.spectral.illuminant = illuminant;
+        const wave::Psf psf =
+            eye::eye_psf(night_eye(), wave::KernelGrid::full_reach(view), options);
+        const auto glare_of = [&](float luminance) {
+            Image in(view.width, view.height, 3);
+            const float orange[3] = {1.0F, 0.37F, 0.02F};
+            for (int c = 0; c < 3; ++c) in.at(53, 41, c) = luminance * orange[c];
+            return apply(view, psf, in);
+        };
+        const auto xy = [](const Image& image, int x, int y) {
+            return color::chromaticity({image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)});
+        };
+        const Image bright = glare_of(1e4F);
+        for (const float left : {0.5F, 0.01F}) {
+            const Image dimmed = glare_of(1e4F * left);
+            for (int y = 0; y < view.height; ++y) {
+                for (int x = 0; x < view.width; ++x) {
+                    const auto before = xy(bright, x, y);
+                    const auto after = xy(dimmed, x, y);
+                    ASSERT_NEAR(after[0], before[0], 1e-3) << x << ", " << y;
+                    ASSERT_NEAR(after[1], before[1], 1e-3) << x << ", " << y;
+                }
+            }
+        }
+    }
+}
+
 TEST(GlareLaws, GreyPicturesSeeTheLuminanceOfThePsf) {
     const View view = view_of(96, 64, 20, false);
     const wave::Psf psf = eye::eye_psf(night_eye(), wave::KernelGrid::full_reach(view));

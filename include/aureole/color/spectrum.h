@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "aureole/color/illuminant.h"
 #include "aureole/color/rgb.h"
 
 namespace aureole::color {
@@ -11,14 +12,6 @@ namespace aureole::color {
 // 2013, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", table 1
 // (maximum error .015 / .008 / .024).
 Xyz cie_1931_observer(double wavelength_nm);
-
-enum class Illuminant {
-    kD65,          // CIE standard illuminant D65, relative power, linear between its 10 nm samples
-    kEqualEnergy,  // constant power
-};
-
-// Relative spectral power, 100 at 560 nm. D65 is clamped outside 380-780 nm.
-double relative_power(Illuminant illuminant, double wavelength_nm);
 
 enum class WavelengthSpacing {
     kLogarithmic,  // equal ratios: a diffraction pattern scales with wavelength, so equal ratios
@@ -39,10 +32,14 @@ struct SpectralRange {
 };
 
 // The spectrum cut into `count` bands, weighted by observer and illuminant. The weights of each
-// RGB component sum to 1, so that a source with the illuminant's spectrum stays neutral whatever
-// diffraction does to its wavelengths ("white-preserving"). Weights may be negative: spectral
-// colours lie outside the sRGB gamut.
-// Each weight is an integral over its band, not a sample.
+// RGB component sum to 1, so that a source with the illuminant's spectrum keeps its colour
+// whatever diffraction does to its wavelengths (that of D65 stays neutral). Weights may be
+// negative: spectral colours lie outside the sRGB gamut.
+// Each weight is an integral over its band, not a sample. Every line of the illuminant is a band of
+// its own, at its exact wavelength, in addition to `count`; bands without light are left out.
+// A component that the source all but lacks, where positive and negative weights cancel to less
+// than a tenth of their magnitude (the blue of kHighPressureSodium), takes the weights of
+// luminance.
 // Throws InvalidArgument unless count >= 1, 0 < low < high and the range holds light of every RGB
 // component.
 std::vector<SpectralBand> sample_spectrum(

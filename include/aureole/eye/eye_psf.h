@@ -30,6 +30,8 @@ struct SpectralSampling {
     int bands = 0;  // 0 to 4096
     // Of a fixed number of bands. The thesis: 32, kLinear.
     color::WavelengthSpacing spacing = color::WavelengthSpacing::kLogarithmic;
+    // Spectrum of the source, whose lines are bands of their own (illuminant.h). Weights are
+    // relative to its colour: docs/spectral_sources.md.
     color::Illuminant illuminant = color::Illuminant::kD65;
     // > 0: one wavelength (nm, 380 to 770), equal in all three channels; the rest is ignored.
     double single_wavelength_nm = 0;
@@ -54,7 +56,7 @@ struct EyePsfTimings {
 
 // Energy: sum(kernel) + off_kernel_energy is 1 in every colour; off_kernel_energy is integrated
 // from the scatter model, not inferred from the kernel. A source with the illuminant's spectrum
-// stays white. The same arguments give the same bits on any number of threads.
+// keeps its colour in sum. The same arguments give the same bits on any number of threads.
 // With ScatterModel::kNone, S is the Airy pattern of the pupil and T' is 1.
 // At most half of the energy goes into halo and streaks, whatever the looks ask for.
 // Memory: about 350 MB at 4096 samples, beside the kernel.
