@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "aureole/base/error.h"
+#include "aureole/color/antialias.h"
 #include "aureole/color/tone_curve.h"
 #include "option_checks.h"
 #include "output_options.h"
@@ -27,6 +29,12 @@ void DisplayOptions::add_options(CLI::App& command) {
                             "Stops (default: attribute aureole:exposure_ev, else 0)"),
            -kMostStops, kMostStops)
         ->type_name("EV");
+    antialias_option_ =
+        one_of(group.add_option("--antialias", antialias_,
+                                "edges: blurs along jagged edges of the finished picture, for "
+                                "renderings with one sample per pixel"),
+               {"none", "edges"})
+            ->capture_default_str();
     ocio_options_ = {
         group
             .add_option("--ocio-config", ocio_.config, "OpenColorIO configuration (default: $OCIO)")
@@ -43,8 +51,9 @@ void DisplayOptions::add_options(CLI::App& command) {
 
 void DisplayOptions::prepare(const std::vector<std::string>& outputs) {
     const bool any_display = std::any_of(outputs.begin(), outputs.end(), is_display_file);
-    if (!any_display && tone_map_option_->count() > 0) {
-        throw InvalidArgument("--tone-map", tone_map_,
+    for (const CLI::Option* option : {tone_map_option_, antialias_option_}) {
+        if (any_display || option->count() == 0) continue;
+        throw InvalidArgument(option->get_name(), option->results().front(),
                               "applies to PNG and JPEG; EXR, HDR and TIFF are written linear");
     }
     for (const CLI::Option* option : ocio_options_) {
@@ -79,6 +88,11 @@ Image DisplayOptions::encode(const ConstImageView& linear, double exposure_ev) c
         transform_->apply(rgb, encoded, scale);
     } else {
         color::tone_map_to_srgb(color::tone_curve_from_name(tone_map_), scale, rgb, encoded);
+    }
+    if (antialias_ == "edges") {
+        Image smooth(encoded.width(), encoded.height(), 3);
+        color::antialias_edges(encoded, smooth);
+        encoded = std::move(smooth);
     }
     return linear.channels == 1 ? copy(encoded.view().channel_range(0, 1)) : encoded;
 }

@@ -1,4 +1,4 @@
-// From linear results to pictures for a display: --tone-map, --exposure, --ocio-*.
+// From linear results to pictures for a display: --tone-map, --exposure, --antialias, --ocio-*.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -24,6 +24,7 @@ class DisplayOptions {
     // within +-100, else 0.
     double exposure_ev(const io::Picture& picture) const;
     const std::string& tone_map() const { return tone_map_; }
+    const std::string& antialias() const { return antialias_; }
 
     // Encodes 1 or 3 linear channels for the display, in [0, 1].
     Image encode(const ConstImageView& linear, double exposure_ev) const;
@@ -31,6 +32,8 @@ class DisplayOptions {
   private:
     std::string tone_map_ = "hill";
     CLI::Option* tone_map_option_ = nullptr;
+    std::string antialias_ = "none";
+    CLI::Option* antialias_option_ = nullptr;
     std::vector<CLI::Option*> ocio_options_;
     std::optional<double> exposure_ev_;
     io::OcioSettings ocio_;

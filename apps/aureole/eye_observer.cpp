@@ -44,14 +44,15 @@ std::optional<wave::VaryingPsf> EyeObserver::varying_psf(const View& display, co
     if (field_spacing_deg_ == 0) return std::nullopt;
     eye_ = options_.eye(*metered_cd_m2_, display);
     eye::FieldPsfOptions options;
+    options.psf.spectral = options_.sampling();
     options.spacing_deg = field_spacing_deg_;
     wave::VaryingPsf psf = eye::eye_field_psf(eye_, data, options, &session_);
-    measure_field(psf);
+    measure_field(psf, options.psf);
     return psf;
 }
 
 // The blend against streaks computed for positions of their own.
-void EyeObserver::measure_field(const wave::VaryingPsf& psf) {
+void EyeObserver::measure_field(const wave::VaryingPsf& psf, const eye::EyePsfOptions& options) {
     constexpr int kPositions = 16;
     Random random(1, 0);
     double difference = 0;
@@ -71,7 +72,7 @@ void EyeObserver::measure_field(const wave::VaryingPsf& psf) {
         const int x = static_cast<int>(random.uniform() * psf.view.width);
         const int y = static_cast<int>(random.uniform() * psf.view.height);
         const Image truth =
-            eye::streaks_at(eye_, eye::field_position(psf.view, x + 0.5, y + 0.5), grid);
+            eye::streaks_at(eye_, eye::field_position(psf.view, x + 0.5, y + 0.5), grid, options);
         const Image blend = fourier::kernel_at(psf.parts, psf.view.width, psf.view.height, x, y);
         const int dx = (truth.width() - blend.width()) / 2;
         const int dy = (truth.height() - blend.height()) / 2;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "aureole/eye/anatomy.h"
+#include "aureole/eye/eye_psf.h"
 #include "aureole/wave/varying_psf.h"
 #include "eye_options.h"
 #include "observer.h"
@@ -41,7 +42,7 @@ class EyeObserver : public Observer {
     void report(nlohmann::ordered_json& json) const override;
 
   private:
-    void measure_field(const wave::VaryingPsf& psf);
+    void measure_field(const wave::VaryingPsf& psf, const eye::EyePsfOptions& options);
     double adaptation_to(const io::Picture& picture) const;
 
     const EyeOptions& options_;

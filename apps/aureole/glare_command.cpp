@@ -114,6 +114,7 @@ void GlareCommand::check() {
         alone(psf_file.empty() ? "" : "--psf");
         alone(settings.matte_file.empty() ? "" : "--matte");
         alone(spread.first_selective());
+        alone(motion.first_given());
     }
     if (observer_name == "camera") {
         refuse(eye.first_given(), "is an option of the eye: leave it out with --observer camera");

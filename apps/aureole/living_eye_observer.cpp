@@ -49,7 +49,9 @@ bool LivingEyeObserver::adapt(const io::Picture& picture) {
 
 std::optional<wave::Psf> LivingEyeObserver::psf(const View& /*display*/, const View& data) {
     if (moment_.closed) return std::nullopt;
-    return eye::eye_psf(moment_.eye, wave::KernelGrid::full_reach(data), {}, &session_);
+    eye::EyePsfOptions options;
+    options.spectral = options_.sampling();
+    return eye::eye_psf(moment_.eye, wave::KernelGrid::full_reach(data), options, &session_);
 }
 
 void LivingEyeObserver::report(nlohmann::ordered_json& json) const {

@@ -124,7 +124,7 @@ glare::GlareOptions SpreadSettings::options(bool matte) const {
 }
 
 std::string SpreadSettings::first_selective() const {
-    if (method == "direct") return "--method direct";
+    if (method != "fft") return "--method " + method;
     if (threshold != 0) return "--threshold";
     if (gain != 1) return "--gain";
     return surround == "same" ? "--surround same" : "";
@@ -309,6 +309,7 @@ std::string PictureJob::report() {
                   {"output_layers", settings_.layers},
                   {"depth", settings_.output.depth()},
                   {"tone_map", settings_.display.tone_map()},
+                  {"antialias", settings_.display.antialias()},
                   {"exposure_ev", exposure_ev_},
                   {"threads", thread_count()}};
     if (last.glare) {

@@ -155,6 +155,7 @@ void SceneCommand::run() {
                           {"adaptation_cd_m2", scene.adaptation_cd_m2},
                           {"exposure_ev", display.exposure_ev(picture)},
                           {"tone_map", display.tone_map()},
+                          {"antialias", display.antialias()},
                           {"depth", output.depth()},
                           {"seed", options.seed},
                           {"threads", thread_count()}};

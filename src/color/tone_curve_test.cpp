@@ -141,6 +141,53 @@ TEST(HuePreserving, ColoursOutsideTheGamutKeepTheirLuminance) {
     EXPECT_NEAR(luminance(out), luminance(in), 1e-6F);
 }
 
+// Where a colour lies in the CIE 1931 diagram as seen from white: the direction is its dominant
+// (or complementary) wavelength, the distance its saturation.
+struct FromWhite {
+    double angle = 0;
+    double distance = 0;
+};
+
+FromWhite from_white(const Rgbf& rgb) {
+    const Xyz xyz = xyz_from_rgb({rgb[0], rgb[1], rgb[2]});
+    const Xyz white = xyz_from_rgb({1, 1, 1});
+    const double sum = xyz[0] + xyz[1] + xyz[2];
+    const double white_sum = white[0] + white[1] + white[2];
+    const double dx = xyz[0] / sum - white[0] / white_sum;
+    const double dy = xyz[1] / sum - white[1] / white_sum;
+    return {std::atan2(dy, dx), std::hypot(dx, dy)};
+}
+
+// Ramps of ten stops of colours at the edge of the gamut and beyond (laser lines of 532 and 470 nm,
+// a neon red), the paper's figure 5: the colour keeps its dominant wavelength, never gets more
+// saturated, ends white, and no component stops or falls while the others rise.
+TEST(HuePreserving, SaturatedRampsKeepTheirDominantWavelengthUntilWhite) {
+    for (const Rgbf& colour :
+         {Rgbf{1, 0, 0}, Rgbf{0, 1, 0}, Rgbf{0, 0, 1}, Rgbf{1, 0.02F, 0.4F}, Rgbf{0, 0.7F, 1},
+          Rgbf{1, 0.6F, 0}, Rgbf{-0.3F, 1, -0.08F}, Rgbf{-0.1F, 0.02F, 1}, Rgbf{1, -0.05F, -0.005F},
+          Rgbf{-0.35F, 0.8F, 0.9F}}) {
+        const double dominant = from_white(colour).angle;
+        Rgbf previous = {};
+        double previous_distance = from_white(colour).distance;
+        const float first = 0.02F / luminance(colour);
+        for (float stops = 0; stops <= 10; stops += 0.05F) {
+            const float scale = first * std::exp2(stops);
+            const Rgbf in = {scale * colour[0], scale * colour[1], scale * colour[2]};
+            const Rgbf out = hue_preserving(in);
+            const FromWhite seen = from_white(out);
+            if (seen.distance > 1e-3) {
+                EXPECT_NEAR(std::remainder(seen.angle - dominant, 6.283185307), 0, 2e-3) << stops;
+            }
+            EXPECT_LE(seen.distance, previous_distance + 1e-5) << stops;
+            EXPECT_NEAR(luminance(out), std::min(luminance(in), 1.0F), 2e-5F) << stops;
+            for (std::size_t c = 0; c < 3; ++c) EXPECT_GE(out[c], previous[c] - 1e-6F) << stops;
+            previous = out;
+            previous_distance = seen.distance;
+        }
+        for (const float v : previous) EXPECT_NEAR(v, 1, 1e-5F);
+    }
+}
+
 TEST(FastSrgbEncode, IsAFractionOfAnEightBitStepFromTheExactCurve) {
     float previous = -1;
     for (int i = 0; i <= 400000; ++i) {

@@ -93,6 +93,35 @@ TEST_F(Display, ExposureIsInStops) {
     EXPECT_EQ(samples("out.png").values[0], 255);
 }
 
+TEST_F(Display, AntialiasingSmoothsJaggedEdgesAndNothingElse) {
+    Image jagged(32, 32, 3);
+    for (int c = 0; c < 3; ++c) {
+        for (int y = 0; y < 32; ++y) {
+            for (int x = 0; x < 32; ++x) jagged.at(x, y, c) = 3 * x + y > 60 ? 1.0F : 0.0F;
+        }
+    }
+    write("in.exr", jagged);
+    show("-o plain.png --tone-map none");
+    EXPECT_EQ(show("-o smooth.png --tone-map none --antialias edges").exit_code, 0);
+    const Samples plain = samples("plain.png");
+    const Samples smooth = samples("smooth.png");
+    std::size_t between = 0;
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < plain.values.size(); ++i) {
+        EXPECT_TRUE(plain.values[i] == 0 || plain.values[i] == 255);
+        if (smooth.values[i] > 0 && smooth.values[i] < 255) ++between;
+        if (smooth.values[i] != plain.values[i]) ++changed;
+    }
+    EXPECT_GT(between, 32U);
+    EXPECT_LT(changed, plain.values.size() / 5);
+}
+
+TEST_F(Display, AntialiasingIsForDisplayFiles) {
+    const Outcome outcome = show("-o out.exr --antialias edges");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(names_all(outcome.err, {"--antialias", "edges", "PNG"}));
+}
+
 TEST_F(Display, AlphaIsNotPartOfWhatIsShown) {
     write("in.exr", constant(4, 4, 4, 0.5F), {"R", "G", "B", "A"});
     ASSERT_EQ(show("-o out.png --tone-map none").exit_code, 0);
