@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "aureole/base/buffer.h"
+#include "aureole/color/rgb.h"
 #include "aureole/ibl/cube_map.h"
 
 namespace aureole::ibl {
@@ -29,8 +30,11 @@ struct alignas(64) RadianceBlock {
 };
 static_assert(sizeof(RadianceBlock) == 128);
 
-// Luminance of linear sRGB.
-inline constexpr std::array<float, 3> kLuminanceWeights = {0.2126F, 0.7152F, 0.0722F};
+// Luminance of linear sRGB, in single precision.
+inline constexpr std::array<float, 3> kLuminanceWeights = {
+    static_cast<float>(color::kLuminanceWeights[0]),
+    static_cast<float>(color::kLuminanceWeights[1]),
+    static_cast<float>(color::kLuminanceWeights[2])};
 
 // The blocks of one level: per_side x per_side on each face, row by row, face by face.
 struct RadianceLevel {
