@@ -28,7 +28,7 @@ struct FieldPsfOptions {
 };
 
 // As eye_psf(), and on the axis the same (but for rays beyond reach_deg), for a picture seen as
-// `view`, at most 160 deg wide and high. Takes about half a minute at 1080p on two cores.
+// `view`, at most 160 deg wide and high. Takes about a minute at 1080p on two cores.
 wave::VaryingPsf eye_field_psf(const Eye& eye, const View& view,
                                const FieldPsfOptions& options = {}, Progress* progress = nullptr);
 
