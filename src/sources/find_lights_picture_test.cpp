@@ -1,59 +1,14 @@
 // Lights of a real picture.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <string>
-#include <vector>
 
 #include "aureole/sources/light.h"
+#include "radiance_file.h"
 
 namespace aureole::sources {
 namespace {
-
-// The run-length coded Radiance format (Ward 1991), enough of it for this file.
-Image read_radiance(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string line;
-    while (std::getline(file, line) && !line.empty()) continue;
-    std::string axis;
-    int height = 0;
-    int width = 0;
-    file >> axis >> height >> axis >> width;
-    file.get();
-    Image picture(width, height, 3);
-    std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(width));
-    for (int y = 0; y < height; ++y) {
-        char marks[4];
-        file.read(marks, 4);
-        for (int part = 0; part < 4; ++part) {
-            std::uint8_t* out = row.data() + part * width;
-            for (int x = 0; x < width;) {
-                const int count = file.get();
-                if (!file) return {};
-                if (count > 128) {
-                    std::fill_n(out + x, count - 128, static_cast<std::uint8_t>(file.get()));
-                    x += count - 128;
-                } else {
-                    file.read(reinterpret_cast<char*>(out + x), count);
-                    x += count;
-                }
-            }
-        }
-        for (int x = 0; x < width; ++x) {
-            const int exponent = row[static_cast<std::size_t>(3 * width + x)];
-            for (int c = 0; c < 3; ++c) {
-                const int mantissa = row[static_cast<std::size_t>(c * width + x)];
-                picture.at(x, y, c) =
-                    exponent == 0 ? 0 : std::ldexp(static_cast<float>(mantissa), exponent - 136);
-            }
-        }
-    }
-    return picture;
-}
 
 // A sunset over water. The sun is by far the brightest thing, and a light is found where its pixels
 // are.

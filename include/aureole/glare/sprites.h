@@ -41,9 +41,11 @@ struct SpriteReport {
 
 class Sprites {
   public:
-    // `kernel`: 1 channel (used for all) or `channels`, its centre at (width / 2, height / 2). It
-    // is copied, and kernels of up to 1025 x 1025 pixels once more for each size of cell up to
-    // clusters.max_side; larger ones are used for clusters of Shape::kPoint only.
+    // `kernel`: 1 channel (used for all) or `channels`, its centre at (width / 2, height / 2); not
+    // kept. Of a large one, the smooth part beyond 256 pixels or more is drawn on a coarser raster,
+    // in clusters of its own, if that is within the error. Memory: the kernel, and up to 1025 x
+    // 1025 pixels of it once more for each size of cell up to clusters.max_side; kernels that are
+    // larger and not smooth far out are used for clusters of Shape::kPoint only.
     // Throws InvalidArgument for empty pictures or kernels, options out of range, and
     // Criterion::kSimilarColor with a larger kernel.
     Sprites(int width, int height, int channels, const ConstImageView& kernel,
