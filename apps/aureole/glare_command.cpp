@@ -97,6 +97,7 @@ void GlareCommand::check() {
         if (!option.empty()) throw InvalidArgument(option + ": " + why);
     };
     view.check();
+    spread.check();
     field_spacing_deg = field_varying == "on"    ? eye::FieldPsfOptions().spacing_deg
                         : field_varying == "off" ? 0
                                                  : given_number(field_varying).value_or(-1);

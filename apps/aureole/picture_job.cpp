@@ -90,12 +90,13 @@ void SpreadSettings::add_options(CLI::App& group) {
                             "which depends on the machine"),
            {"fft", "direct", "sprites", "hybrid", "auto"})
         ->capture_default_str();
-    number(group.add_option("--cluster-error", cluster_error,
-                            "Of sprites, hybrid and auto: largest sum of |difference| from fft, "
-                            "over the sum of the light"),
-           1e-6, 0.5)
-        ->type_name("E")
-        ->capture_default_str();
+    error_option_ = number(group.add_option(
+                               "--cluster-error", cluster_error,
+                               "Of sprites, hybrid and auto: largest sum of |difference| from fft, "
+                               "over the sum of the light"),
+                           1e-6, 0.5)
+                        ->type_name("E")
+                        ->capture_default_str();
     number(group.add_option("--threshold", threshold,
                             "Pixel values below make no glare (continuous ramp); 0 is physical"),
            0, 1e30)
@@ -110,6 +111,13 @@ void SpreadSettings::add_options(CLI::App& group) {
                             "for each pixel surroundings as bright as itself"),
            {"dark", "same"})
         ->capture_default_str();
+}
+
+void SpreadSettings::check() const {
+    if (error_option_->count() > 0 && (method == "fft" || method == "direct")) {
+        throw InvalidArgument("--cluster-error", error_option_->results().front(),
+                              "needs --method sprites, hybrid or auto: " + method + " is exact");
+    }
 }
 
 glare::GlareOptions SpreadSettings::options(bool matte) const {

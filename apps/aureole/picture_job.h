@@ -36,6 +36,8 @@ struct PictureSettings {
 // How a PSF is applied.
 struct SpreadSettings {
     void add_options(CLI::App& group);
+    // After parsing. Throws InvalidArgument for options that have no effect on this method.
+    void check() const;
     glare::GlareOptions options(bool matte) const;
     // The first option in force that a kernel that varies over the picture does not know, or
     // nothing.
@@ -46,6 +48,9 @@ struct SpreadSettings {
     float threshold = 0;
     float gain = 1;
     std::string surround = "dark";
+
+  private:
+    CLI::Option* error_option_ = nullptr;
 };
 
 // Pictures one after another; PSF and transforms are kept as long as the view and the eye stay.

@@ -101,7 +101,7 @@ void SceneCommand::add_options(CLI::App& command) {
 MadePicture SceneCommand::make() {
     const bool sphere = is_environment(name);
     options.width = width.value_or(sphere ? 2048 : 1920);
-    options.height = height.value_or(sphere ? std::max(1, options.width / 2) : 1080);
+    options.height = height.value_or(sphere ? options.width / 2 : 1080);
     if (!sphere) {
         scene::Scene scene = scene::make_scene(name, options);
         return {std::move(scene.rgb), scene.adaptation_cd_m2, scene.display_white_cd_m2,
@@ -110,6 +110,11 @@ MadePicture SceneCommand::make() {
     if (options.fov_deg) {
         throw InvalidArgument("--fov", fmt::format("{}", *options.fov_deg),
                               name + " is an environment, which shows the whole sphere");
+    }
+    if (!height && options.width % 2 != 0) {
+        throw InvalidArgument("--width", std::to_string(options.width),
+                              "environments are twice as wide as high: must be even, or --height "
+                              "given");
     }
     scene::Environment made =
         scene::make_environment(name, {options.width, options.height, options.seed});

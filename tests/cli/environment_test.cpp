@@ -36,6 +36,15 @@ TEST_F(Environment, OfAllNamesInTheHelp) {
     }
 }
 
+// Half of an odd width is no height: what was written could not be read as an environment again.
+TEST_F(Environment, OddWidthsNeedAHeight) {
+    const Outcome outcome = run("scene studio -o a.exr --width 33");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(names_all(outcome.err, {"--width", "33", "even", "--height"}));
+    EXPECT_FALSE(exists("a.exr"));
+    EXPECT_EQ(run("scene studio -o a.exr --width 33 --height 17").exit_code, 0);
+}
+
 TEST_F(Environment, HasNoFieldOfView) {
     const Outcome outcome = run("scene sunny -o a.exr --width 16 --fov 60");
     EXPECT_EQ(outcome.exit_code, 2);

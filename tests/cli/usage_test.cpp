@@ -135,6 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUsage{"glare in.exr -o out.exr --surround mirror", {"--surround", "mirror", "same"}},
         WrongUsage{"glare in.exr -o out.exr --gain inf", {"--gain", "inf", "number"}},
         WrongUsage{"glare in.exr -o out.exr --method magic", {"--method", "magic", "direct"}},
+        WrongUsage{"glare in.exr -o out.exr --cluster-error .1",
+                   {"--cluster-error", ".1", "--method", "hybrid", "fft is exact"}},
         WrongUsage{"glare in.exr -o out.exr --depth quarter", {"--depth", "quarter", "half"}},
         WrongUsage{"glare in.exr -o out.png --exposure nan", {"--exposure", "nan", "100"}},
         WrongUsage{"glare in.exr -o out.png --tone-map pretty", {"--tone-map", "pretty", "hill"}},
