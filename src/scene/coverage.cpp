@@ -58,6 +58,26 @@ Polygon ellipse(Pixel centre, Pixel half_axis_1, Pixel half_axis_2) {
     return polygon;
 }
 
+Polygon cone_outline(const Camera& camera, Vec3 direction, double radius_deg) {
+    constexpr int kSides = 96;
+    const Vec3 axis = normalize(direction);
+    const Vec3 right = normalize(Vec3{axis.z, 0, -axis.x});
+    const Vec3 up = {axis.y * right.z - axis.z * right.y, axis.z * right.x - axis.x * right.z,
+                     axis.x * right.y - axis.y * right.x};
+    // A regular polygon of equal area.
+    const double grow = std::sqrt(kPi / (kSides / 2.0 * std::sin(2 * kPi / kSides)));
+    const double radius = std::tan(rad_from_deg(radius_deg)) * grow;
+    Polygon outline;
+    for (int i = 0; i < kSides; ++i) {
+        const auto c = static_cast<float>(radius * std::cos(2 * kPi * i / kSides));
+        const auto s = static_cast<float>(radius * std::sin(2 * kPi * i / kSides));
+        const auto pixel = camera.project_direction(axis + right * c + up * s);
+        if (!pixel) return {};
+        outline.push_back(*pixel);
+    }
+    return outline;
+}
+
 double area(const Polygon& polygon) {
     double doubled = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {

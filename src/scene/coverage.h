@@ -17,6 +17,10 @@ using Polygon = std::vector<Pixel>;
 // An ellipse as a polygon of the same area; the half axes are vectors.
 Polygon ellipse(Pixel centre, Pixel half_axis_1, Pixel half_axis_2);
 
+// The true projection of a round cone of light around a direction, as a polygon of the same area;
+// empty if part of it is behind the camera. radius_deg: between the axis of the cone and its edge.
+Polygon cone_outline(const Camera& camera, Vec3 direction, double radius_deg);
+
 double area(const Polygon& polygon);
 
 struct PixelCoverage {

@@ -1,8 +1,5 @@
 // Puts the `sun` scene together: land and sky by sampling, tree and fence painted over, the sun's
 // disc by exact coverage.
-#include <cmath>
-
-#include "aureole/base/units.h"
 #include "scene/adaptive.h"
 #include "scene/builders.h"
 #include "scene/coverage.h"
@@ -28,27 +25,6 @@ void render_land_and_sky(const Camera& camera, Image& picture) {
         picture, no_shares);
 }
 
-// The disc as the true projection of a cone of light.
-Polygon sun_outline(const Camera& camera) {
-    constexpr int kSides = 96;
-    const Vec3 sun = sun_direction();
-    const Vec3 right = normalize(Vec3{sun.z, 0, -sun.x});
-    const Vec3 up = {sun.y * right.z - sun.z * right.y, sun.z * right.x - sun.x * right.z,
-                     sun.x * right.y - sun.y * right.x};
-    // A regular polygon of equal area.
-    const double grow = std::sqrt(kPi / (kSides / 2.0 * std::sin(2 * kPi / kSides)));
-    const double radius = std::tan(rad_from_deg(kSunRadiusDeg)) * grow;
-    Polygon outline;
-    for (int i = 0; i < kSides; ++i) {
-        const auto c = static_cast<float>(radius * std::cos(2 * kPi * i / kSides));
-        const auto s = static_cast<float>(radius * std::sin(2 * kPi * i / kSides));
-        const auto pixel = camera.project_direction(sun + right * c + up * s);
-        if (!pixel) return {};
-        outline.push_back(*pixel);
-    }
-    return outline;
-}
-
 }  // namespace
 }  // namespace daylight
 
@@ -66,7 +42,8 @@ Scene make_sun(const SceneOptions& options, const View& view) {
     add_grass(camera, meadow, strokes);
     paint(strokes, scene.rgb);
     scene.adaptation_cd_m2 = mean_luminance(scene.rgb);
-    add_light(sun_outline(camera), sun_colour() * kSunLuminance, scene.rgb);
+    add_light(cone_outline(camera, sun_direction(), kSunRadiusDeg), sun_colour() * kSunLuminance,
+              scene.rgb);
     return scene;
 }
 
