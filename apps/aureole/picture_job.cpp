@@ -16,11 +16,6 @@ namespace {
 
 using Reason = glare::MethodReport::Reason;
 
-bool same_view(const View& a, const View& b) {
-    return a.width == b.width && a.height == b.height && a.projection == b.projection &&
-           a.pitch_deg == b.pitch_deg && a.axis_x == b.axis_x && a.axis_y == b.axis_y;
-}
-
 // How the last picture was done; the choice where there was one, or an error.
 void report_method(const glare::MethodReport& report, nlohmann::ordered_json& json) {
     json["method"] = glare::name_of(report.method);
@@ -143,8 +138,8 @@ void PictureJob::prepare(const io::Picture& picture) {
     const View view = data_view(display, picture);
     const int channels = picture.color_channels();
     const bool adapted = observer_.adapt(picture);
-    if (prepared_ && adapted && same_view(prepared_->view, view) &&
-        same_view(prepared_->display, display) && prepared_->channels == channels) {
+    if (prepared_ && adapted && prepared_->view == view && prepared_->display == display &&
+        prepared_->channels == channels) {
         return;
     }
     prepared_.reset();

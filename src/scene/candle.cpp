@@ -19,10 +19,10 @@ namespace {
 
 constexpr float kFlameHeightMm = 28;
 constexpr float kFlameWidthMm = 7;
-constexpr float kWickMm = 5;          // between wax and flame
+constexpr float kWickMm = 5;  // between wax and flame
 constexpr float kWaxWidthMm = 22;
-constexpr float kWallDistanceM = 2;   // behind the flame
-constexpr float kAmbient = 0.02F;     // cd/m2
+constexpr float kWallDistanceM = 2;  // behind the flame
+constexpr float kAmbient = 0.02F;    // cd/m2
 constexpr float kWallAlbedo = 0.4F;
 constexpr int kSlices = 24;
 
@@ -40,47 +40,36 @@ Vec3 flame_radiance(float u) {
     return mix(foot, body, rise) * (1 - 0.5F * smoothstep(0.75F, 1, u));
 }
 
+// The level slices of the flame, mm from the middle of the resting flame, which is on the axis.
 struct Slice {
-    Polygon outline;
+    std::array<std::array<float, 2>, 4> corners;
     Vec3 radiance;
 };
 
-class Flame {
-  public:
-    Flame(const Candle& candle, const Camera& camera) : camera_(camera) {
-        const auto seed = static_cast<int>(candle.seed % 100000);
-        const auto tremble = [&](double hertz, int stream) {
-            return value_noise(static_cast<float>(candle.time_s * hertz), 0.5F, seed + stream);
-        };
-        height_ = kFlameHeightMm * (1 + 0.08F * tremble(3, 1) + 0.04F * tremble(9, 2));
-        lean_ = 2.2F * tremble(1.3, 3) + 0.6F * tremble(6, 4);
-        distance_ = static_cast<float>(candle.distance_m);
+std::vector<Slice> flame_slices(const Candle& candle) {
+    const auto seed = static_cast<int>(candle.seed % 100000);
+    const auto tremble = [&](double hertz, int stream) {
+        return value_noise(static_cast<float>(candle.time_s * hertz), 0.5F, seed + stream);
+    };
+    const float height = kFlameHeightMm * (1 + 0.08F * tremble(3, 1) + 0.04F * tremble(9, 2));
+    const float lean = 2.2F * tremble(1.3, 3) + 0.6F * tremble(6, 4);
+    const auto corner = [&](float u, float side) {
+        return std::array{side * half_width_mm(u) + lean * u * u, height * u - kFlameHeightMm / 2};
+    };
+    std::vector<Slice> slices;
+    Vec3 sum;  // of area times radiance, mm2
+    for (int i = 0; i < kSlices; ++i) {
+        const float low = static_cast<float>(i) / kSlices;
+        const float high = static_cast<float>(i + 1) / kSlices;
+        slices.push_back({{corner(low, -1), corner(low, 1), corner(high, 1), corner(high, -1)},
+                          flame_radiance((low + high) / 2)});
+        const float area = (half_width_mm(low) + half_width_mm(high)) * height / kSlices;
+        sum += slices.back().radiance * area;
     }
-
-    std::vector<Slice> slices() const {
-        std::vector<Slice> slices;
-        for (int i = 0; i < kSlices; ++i) {
-            const float low = static_cast<float>(i) / kSlices;
-            const float high = static_cast<float>(i + 1) / kSlices;
-            slices.push_back({{corner(low, -1), corner(low, 1), corner(high, 1), corner(high, -1)},
-                              flame_radiance((low + high) / 2)});
-        }
-        return slices;
-    }
-
-  private:
-    Pixel corner(float u, float side) const {
-        const float x_mm = side * half_width_mm(u) + lean_ * u * u;
-        // The middle of the resting flame is on the axis.
-        const float y_mm = height_ * u - kFlameHeightMm / 2;
-        return *camera_.project({1e-3F * x_mm, 1e-3F * y_mm, distance_});
-    }
-
-    const Camera& camera_;
-    float height_;
-    float lean_;
-    float distance_;
-};
+    const float scale = static_cast<float>(candle.intensity_cd) / (1e-6F * luminance(sum));
+    for (Slice& slice : slices) slice.radiance *= scale;
+    return slices;
+}
 
 // What the flame lights, `intensity` cd from the axis.
 Vec3 wall_radiance(Vec3 direction, float distance_m, float intensity_cd) {
@@ -122,15 +111,19 @@ void draw_wax(const Camera& camera, float distance_m, float intensity_cd, Image&
     paint(0.6F, top_mm + kWickMm + 4, top_mm, [](int) { return Vec3{1, 1, 1} * kAmbient; });
 }
 
-}  // namespace
-
-Scene make_candle(const View& view, const Candle& candle) {
+void check(const Candle& candle) {
     check_range("distance_m", candle.distance_m, 0.3, 100);
     check_range("time_s", candle.time_s, -1e5, 1e5);
     if (!(candle.intensity_cd > 0 && std::isfinite(candle.intensity_cd))) {
         throw InvalidArgument("intensity_cd", std::to_string(candle.intensity_cd),
                               "must be above 0 and finite");
     }
+}
+
+}  // namespace
+
+Scene make_candle(const View& view, const Candle& candle) {
+    check(candle);
     const auto distance = static_cast<float>(candle.distance_m);
     const auto intensity = static_cast<float>(candle.intensity_cd);
     Scene scene{Image(view.width, view.height, 3), view, 0, 0};
@@ -147,18 +140,31 @@ Scene make_candle(const View& view, const Candle& candle) {
     });
     draw_wax(camera, distance, intensity, scene.rgb);
     scene.adaptation_cd_m2 = mean_luminance(scene.rgb);
-    scene.display_white_cd_m2 = 3 * intensity;
+    // A veil that is white some 0.3 deg from the flame.
+    scene.display_white_cd_m2 = 48 * candle.intensity_cd / (candle.distance_m * candle.distance_m);
 
-    const std::vector<Slice> slices = Flame(candle, camera).slices();
-    const double focal_px = view.focal_length_px();
-    double flux = 0;  // illuminance at the eye of the slices as they are
-    for (const Slice& slice : slices) {
-        flux += area(slice.outline) / (focal_px * focal_px) * double{luminance(slice.radiance)};
+    for (const Slice& slice : flame_slices(candle)) {
+        Polygon outline;
+        for (const auto& [x_mm, y_mm] : slice.corners) {
+            outline.push_back(*camera.project({1e-3F * x_mm, 1e-3F * y_mm, distance}));
+        }
+        add_light(outline, slice.radiance, scene.rgb);
     }
-    const auto scale = static_cast<float>(candle.intensity_cd /
-                                          (candle.distance_m * candle.distance_m) / flux);
-    for (const Slice& slice : slices) add_light(slice.outline, slice.radiance * scale, scene.rgb);
     return scene;
+}
+
+color::Rgb flame_illuminance_lx(const Candle& candle) {
+    check(candle);
+    color::Rgb sum{};
+    for (const Slice& slice : flame_slices(candle)) {
+        const auto& c = slice.corners;
+        const float area_mm2 = (c[1][0] - c[0][0] + c[2][0] - c[3][0]) / 2 * (c[2][1] - c[1][1]);
+        const double sr = 1e-6 * double{area_mm2} / (candle.distance_m * candle.distance_m);
+        sum[0] += sr * double{slice.radiance.x};
+        sum[1] += sr * double{slice.radiance.y};
+        sum[2] += sr * double{slice.radiance.z};
+    }
+    return sum;
 }
 
 }  // namespace aureole::scene

@@ -55,8 +55,7 @@ Shares shares_along(int pixels, double axis, double focal_px, double sign, doubl
 }  // namespace
 
 Image lights_on_ground(const View& view, const color::Rgb& ground_cd_m2,
-                       const std::vector<DiscLight>& discs,
-                       const std::vector<PointLight>& points) {
+                       const std::vector<DiscLight>& discs, const std::vector<PointLight>& points) {
     constexpr double kWidest = 80;
     check_light("ground_cd_m2", ground_cd_m2);
     Image picture(view.width, view.height, 3);
@@ -95,11 +94,12 @@ void put_before(const Plate& plate, const View& view, const ImageView& rgb_cd_m2
     check_light("rgb_cd_m2", plate.rgb_cd_m2);
     if (rgb_cd_m2.width != view.width || rgb_cd_m2.height != view.height ||
         rgb_cd_m2.channels != 3) {
-        throw InvalidArgument("the picture behind a plate must have the view's size and 3 channels");
+        throw InvalidArgument(
+            "the picture behind a plate must have the view's size and 3 channels");
     }
     const double focal_px = view.focal_length_px();
-    const Shares columns = shares_along(view.width, view.axis_x, focal_px, 1, plate.left_deg,
-                                        plate.right_deg, plate);
+    const Shares columns =
+        shares_along(view.width, view.axis_x, focal_px, 1, plate.left_deg, plate.right_deg, plate);
     const Shares rows = shares_along(view.height, view.axis_y, focal_px, -1, plate.bottom_deg,
                                      plate.top_deg, plate);
     parallel_for(static_cast<std::size_t>(view.height), [&](std::size_t row, int) {
@@ -111,8 +111,8 @@ void put_before(const Plate& plate, const View& view, const ImageView& rgb_cd_m2
             const float passes = 1 - material * static_cast<float>(1 - plate.transmission);
             for (int c = 0; c < 3; ++c) {
                 float& value = rgb_cd_m2.at(x, y, c);
-                value = value * passes + material * static_cast<float>(
-                                                        plate.rgb_cd_m2[static_cast<std::size_t>(c)]);
+                value = value * passes +
+                        material * static_cast<float>(plate.rgb_cd_m2[static_cast<std::size_t>(c)]);
             }
         }
     });

@@ -19,15 +19,14 @@ constexpr double kSunRadiusDeg = 0.265;
 constexpr double kSunLuminance = 1.6e9;  // cd/m2, outside the air
 constexpr double kSunSolidAngleSr = 6.72e-5;
 constexpr double kViewPitchDeg = 1.5;
-constexpr double kGlowDeg = 5;        // e-folding angle of the glow around the sun
-constexpr double kScattered = 0.05;    // share of the sun's light that haze scatters into it
+constexpr double kGlowDeg = 5;       // e-folding angle of the glow around the sun
+constexpr double kScattered = 0.05;  // share of the sun's light that haze scatters into it
 
 // Kasten & Young 1989, "Revised optical air mass tables and approximation formula". Made for
 // elevations from 0 on; below, the last slope of its logarithm goes on.
 double air_mass(double elevation_deg) {
     const double e = std::max(elevation_deg, 0.0);
-    const double mass =
-        1 / (std::sin(rad_from_deg(e)) + 0.50572 * std::pow(e + 6.07995, -1.6364));
+    const double mass = 1 / (std::sin(rad_from_deg(e)) + 0.50572 * std::pow(e + 6.07995, -1.6364));
     return mass * std::exp(-0.26 * std::min(elevation_deg, 0.0));
 }
 

@@ -18,6 +18,8 @@ struct Particles {
     int count = 0;  // 0 to 200000
     double min_radius_um = 0;
     double max_radius_um = 0;  // >= min_radius_um
+
+    bool operator==(const Particles&) const = default;
 };
 
 // The fibres of the lens, radially arranged; their grating makes the lenticular halo.
@@ -28,6 +30,8 @@ struct Gratings {
     double inner_radius_mm = 1.8;  // the delay rises smoothly from 0 here ...
     double full_radius_mm = 3.2;   // ... to its full value here
     double jitter_fibres = 0.25;   // rms displacement of the fibres, in fibre spacings
+
+    bool operator==(const Gratings&) const = default;
 };
 
 // The lashes in front of the pupil, hanging from the upper lid.
@@ -39,6 +43,8 @@ struct Lashes {
     double curvature_per_mm = 0.03;  // standard deviation
     double distance_mm = 12;  // of the lashes and the lid's edge before the pupil, 0 to 30: what
                               // moves them across it with the direction of the light
+
+    bool operator==(const Lashes&) const = default;
 };
 
 struct Anatomy {
@@ -52,6 +58,8 @@ struct Anatomy {
     double lower_lid_share = 0.1;  // of a closing, done by the lower lid; the upper one does the
                                    // rest. 0 to 0.5
     double pupil_irregularity = 0.004;  // rms scale of the harmonics of the pupil's edge, 0 to 0.1
+
+    bool operator==(const Anatomy&) const = default;
 };
 
 // Where those parts of an eye are that move; the default is an eye at rest. motion.h says how they
@@ -68,6 +76,8 @@ struct Pose {
     // Whether lashes bend where they meet the lower lid. Without, they pass it: straight lashes are
     // those with which the streaks were calibrated.
     bool lashes_bend = false;
+
+    bool operator==(const Pose&) const = default;
 };
 
 // One eye, and what it is made to look like.
@@ -85,6 +95,8 @@ struct Eye {
     double streaks = 1;          // scale of the energy in the streaks, 0 to 20
     Anatomy anatomy;
     Pose pose;
+
+    bool operator==(const Eye&) const = default;
 };
 
 // Throws InvalidArgument that names the first value outside the ranges above.

@@ -39,6 +39,8 @@ struct View {
     double horizontal_field_deg() const;
     // Solid angle of the whole picture, sr: the sum of its pixels' in closed form.
     double solid_angle_sr() const;
+
+    bool operator==(const View&) const = default;
 };
 
 // One plane of pixel solid angles relative to that of the pixel on the axis; 1 everywhere for

@@ -47,10 +47,10 @@ struct Plate {
     double right_deg = 90;
     double bottom_deg = -90;
     double top_deg = 90;
-    double transmission = 0;     // of its material, 0 opaque to 1
-    double hole_pitch_deg = 0;   // from hole to hole in the middle of the picture; 0: no holes
-    double hole_width_deg = 0;   // at most the pitch
-    color::Rgb rgb_cd_m2 = {};   // of its material, added to what it lets through
+    double transmission = 0;    // of its material, 0 opaque to 1
+    double hole_pitch_deg = 0;  // from hole to hole in the middle of the picture; 0: no holes
+    double hole_width_deg = 0;  // at most the pitch
+    color::Rgb rgb_cd_m2 = {};  // of its material, added to what it lets through
 };
 
 // Multiplies each pixel by the share of light that passes. Edges inside a pixel count by their
@@ -66,11 +66,11 @@ void put_before(const Plate& plate, const View& view, const ImageView& rgb_cd_m2
 // photographs of the sun's glitter". Slopes have in all the variance that they measured.
 struct Water {
     double time_s = 0;
-    double eye_height_m = 1.7;        // above the water, 0.1 to 1000
-    double pitch_deg = -14;           // of the view, -80 to 0
-    double sun_elevation_deg = 24;    // ahead; 5 to 85
-    double wind_m_s = 3;              // 0.5 to 15
-    std::uint64_t seed = 1;           // other waves
+    double eye_height_m = 1.7;      // above the water, 0.1 to 1000
+    double pitch_deg = -14;         // of the view, -80 to 0
+    double sun_elevation_deg = 24;  // ahead; 5 to 85
+    double wind_m_s = 3;            // 0.5 to 15
+    std::uint64_t seed = 1;         // other waves
 };
 // Sun 1e5 lx, sky 3000 cd/m2 at the horizon to 1500 above, water 100 to 2000, glints to 2e6.
 Scene make_water(const View& view, const Water& water);
@@ -78,13 +78,15 @@ Scene make_water(const View& view, const Water& water);
 // A candle before a wall in a dark room. Wax and wall are lit by nothing else than the flame but
 // for 0.02 cd/m2.
 struct Candle {
-    double time_s = 0;          // the flame trembles; at rest it is 28 mm high and 7 mm wide
-    double distance_m = 4;      // 0.3 to 100
-    double intensity_cd = 1;    // of the flame at every moment, above 0
-    std::uint64_t seed = 1;     // trembles otherwise
+    double time_s = 0;        // the flame trembles; at rest it is 28 mm high and 7 mm wide
+    double distance_m = 8;    // 0.3 to 100
+    double intensity_cd = 1;  // of the flame at every moment, above 0
+    std::uint64_t seed = 1;   // trembles otherwise
 };
 // Flame about 8000 cd/m2 at 1 cd; its illuminance at the eye is intensity over distance squared.
 Scene make_candle(const View& view, const Candle& candle);
+// What the flame alone makes at the eye: intensity over distance squared, in its colour.
+color::Rgb flame_illuminance_lx(const Candle& candle);
 
 // The sun going down behind the sea. `view` looks at its azimuth, 1.5 deg above the horizon.
 struct Sunset {
