@@ -12,9 +12,6 @@ namespace {
 
 constexpr double kBlinking = 0.6;  // how far the lids of a panel are closed
 
-// Illuminance of a star of magnitude 0 (Allen's Astrophysical Quantities, 3rd edition).
-double star_lx(double magnitude) { return 2.54e-6 * std::pow(10.0, -0.4 * magnitude); }
-
 // A dozen sources of about the same illuminance, somewhere in the picture; each panel the same
 // places.
 std::vector<scene::PointLight> scattered_points(double illuminance_lx, double field_deg,
@@ -72,7 +69,8 @@ Content stars_case(const PanelSize& size) {
     constexpr double kSky = 3e-4;  // cd/m2, a moonless night
     const View view = panel_view(size, kFieldDeg);
     const auto star = [&](const std::string& label, double magnitude) {
-        Panel panel = lights_panel(label, view, grey(kSky), {}, {{0, 0, grey(star_lx(magnitude))}});
+        Panel panel = lights_panel(label, view, grey(kSky), {},
+                                   {{0, 0, grey(scene::star_illuminance_lx(magnitude))}});
         panel.white_cd_m2 = 0.02;
         panel.eye = adapted_eye(kSky);
         return panel;

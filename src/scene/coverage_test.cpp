@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "aureole/base/units.h"
+#include "aureole/scene/studies.h"
 #include "scene/noise.h"
 #include "scene/silhouette.h"
 #include "scene/stars.h"

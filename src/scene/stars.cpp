@@ -4,6 +4,7 @@
 
 #include "aureole/base/parallel.h"
 #include "aureole/base/units.h"
+#include "aureole/scene/studies.h"
 #include "scene/builders.h"
 #include "scene/coverage.h"
 #include "scene/noise.h"

@@ -15,10 +15,6 @@ struct Star {
     float temperature_k = 6000;
 };
 
-// Illuminance of a star of visual magnitude m, lx: magnitude 0 is 2.54e-6 lx (Allen's
-// Astrophysical Quantities, 3rd edition, section 94).
-double star_illuminance_lx(double magnitude);
-
 // Stars at random over the sphere's cap `min_cosine` around `axis`, with magnitudes between the
 // limits distributed as those of the real sky: N(< m) grows as 10^(0.51 m), 4800 down to 6.
 std::vector<Star> random_stars(Vec3 axis, float min_cosine, float brightest, float faintest,

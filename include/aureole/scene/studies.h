@@ -35,6 +35,10 @@ struct PointLight {
     color::Rgb illuminance_lx = {};  // at the eye, facing the light
 };
 
+// Illuminance of a star of visual magnitude m, lx: magnitude 0 is 2.54e-6 lx (Allen's
+// Astrophysical Quantities, 3rd edition, section 94).
+double star_illuminance_lx(double magnitude);
+
 // A uniform ground with lights before it. Discs hide the ground and must not overlap; points add.
 // Throws InvalidArgument for lights outside the ranges above, values below 0 or not finite.
 Image lights_on_ground(const View& view, const color::Rgb& ground_cd_m2,
