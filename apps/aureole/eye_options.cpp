@@ -28,6 +28,15 @@ void EyeOptions::add_options_but_preset(CLI::App& command) {
                                     "; with --time or --fps, a table of `aureole meter`");
 }
 
+void EyeOptions::add_options_of_the_person(CLI::App& command) {
+    add_options(command);
+    for (const char* name : {"--halo", "--streaks", "--pupil", "--pupil-model", "--adaptation",
+                             "--eyelid"}) {
+        group_->remove_option(group_->get_option(name));
+    }
+    adaptation_option_ = nullptr;
+}
+
 void EyeOptions::add_options_to_group() {
     CLI::Option_group& group = *group_;
     number(group.add_option("--age", age_years_, "Years; older eyes scatter more"))

@@ -12,6 +12,7 @@
 #include "aureole/base/units.h"
 #include "aureole/wave/diffraction.h"
 #include "aureole/wave/spectral_psf.h"
+#include "eye/diffracted_share.h"
 #include "eye/stopwatch.h"
 
 namespace aureole::eye {
@@ -177,10 +178,7 @@ Image Components::bloom() {
 std::optional<Image> Components::halo() {
     const int n = options_.aperture.samples;
     const auto count = static_cast<std::size_t>(n);
-    if (eye_.pupil_diameter_mm / 2 <= eye_.anatomy.gratings.inner_radius_mm ||
-        eye_.anatomy.gratings.phase_rad == 0) {
-        return std::nullopt;
-    }
+    if (!shows_fibres(eye_)) return std::nullopt;
     draw_pupil_once();
     wave::Field field = wave::field_from(*pupil_);
     multiply_gratings(eye_, field);

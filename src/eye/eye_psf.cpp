@@ -14,29 +14,13 @@
 #include "aureole/eye/scatter.h"
 #include "eye/components.h"
 #include "eye/corona_texture.h"
+#include "eye/diffracted_share.h"
 #include "eye/kernel_checks.h"
 #include "eye/scatter_pixels.h"
 #include "eye/stopwatch.h"
 
 namespace aureole::eye {
 namespace {
-
-constexpr double kMostDiffractedShare = 0.5;
-
-// The central pixels of the scatter term, in the order of the patch.
-Image scatter_patch(const ScatterPixels& scatter, const wave::KernelGrid& patch) {
-    Image out(patch.width, patch.height, 1);
-    const int half_width = patch.width / 2;
-    const int half_height = patch.height / 2;
-    parallel_for(static_cast<std::size_t>(half_height) + 1, [&](std::size_t row, int) {
-        const int dy = static_cast<int>(row);
-        float* below = out.row(half_height + dy, 0) + half_width;
-        scatter.row(dy, half_width + 1, below);
-        for (int dx = 1; dx <= half_width; ++dx) below[-dx] = below[dx];
-        std::copy_n(below - half_width, patch.width, out.row(half_height - dy, 0));
-    });
-    return out;
-}
 
 // energy[c] S over the whole kernel; the four quadrants are mirror images.
 void fill_scatter(const ScatterPixels& scatter, const std::array<double, 3>& energy,
@@ -136,11 +120,9 @@ wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOpti
     const auto [corona, streaks, blocked_share] = components.corona_and_streaks(
         scatters && eye.corona_contrast > 0, eye.streaks > 0 && eye.eyelashes > 0);
     double streak_share = streaks ? blocked_share * eye.streaks : 0;
-    const double excess = (halo_share + streak_share) / kMostDiffractedShare;
-    if (excess > 1) {
-        halo_share /= excess;
-        streak_share /= excess;
-    }
+    const double limit = diffracted_limit(halo_share + streak_share);
+    halo_share *= limit;
+    streak_share *= limit;
 
     const double start = seconds();
     std::array<double, 3> rest = {1, 1, 1};  // 1 - c
@@ -162,7 +144,7 @@ wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOpti
         if (corona) {
             multiply_patch(
                 psf.kernel, patch,
-                corona_texture(*corona, scatter_patch(scatter, patch), eye.corona_contrast));
+                corona_texture(*corona, scatter.image(patch.width, patch.height), eye.corona_contrast));
         }
         for (std::size_t c = 0; c < 3; ++c) {
             psf.off_kernel_energy[c] = rest[c] * scatter.off_kernel_energy();
