@@ -122,6 +122,12 @@ def main():
         row(f"eye PSF 1025x1025, {name}: times one FFTW transform",
             times[f"eye_psf/{bands}"] / fftw, "<= 6", ms(times[f"eye_psf/{bands}"], fftw))
 
+    times = medians(programs / "flipbook_bench", options.simd, max(3, options.rounds // 3))
+    row("eye PSF 511x511 from a flipbook: times faster than direct",
+        times["direct"] / times["play/raster"], ">= 20", ms(times["direct"], times["play/raster"]))
+    print(f"{'  the same, 3839x2159':<58} {times['direct'] / times['play/full_reach']:8.2f}"
+          f"{'':23}{ms(times['direct'], times['play/full_reach'])}")
+
     flares = programs / "flare_bench"
     times = medians(flares, options.simd, max(3, options.rounds // 3))
     row("ghosts, traced: Biotar, 45 x 3 bands x 128^2 rays (ms)", times["traced/biotar"], "<= 200",

@@ -38,6 +38,7 @@ struct GlareCommand {
     std::string preset = "physical";
     CLI::Option* preset_option = nullptr;
     std::string psf_file;
+    std::string book_file;
     std::string field_varying = "off";
     double field_spacing_deg = 0;  // 0: off
 };
@@ -74,6 +75,11 @@ void GlareCommand::add_options(CLI::App& command) {
         .add_option("--psf", psf_file,
                     "Use this kernel (EXR of `aureole psf`, or any odd-sized picture) instead of "
                     "an eye's")
+        ->type_name("FILE");
+    group
+        .add_option("--book", book_file,
+                    "With --time or --fps: PSFs of the eye that moves from this flipbook of "
+                    "`aureole bake`, instead of computing each")
         ->type_name("FILE");
     group
         .add_option("--field-varying", field_varying,
@@ -124,6 +130,7 @@ void GlareCommand::check() {
         refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
         refuse(view.white_luminance_given() ? "--white-luminance" : "",
                "matters for the eye's pupil only: leave it out with --observer camera");
+        refuse(book_file.empty() ? "" : "--book", "needs --observer eye");
         refuse(preset == "vivid" ? "--preset vivid" : "", "needs --observer eye");
         ghosts.set_preset(preset);
         ghosts.check();
@@ -139,6 +146,8 @@ void GlareCommand::check() {
     eye.check();
     motion.check();
     if (!motion.alive()) {
+        refuse(book_file.empty() ? "" : "--book " + book_file,
+               "is for an eye that moves: needs --time or --fps");
         refuse(eye.adaptation_file().empty() ? "" : "--adaptation " + eye.adaptation_file(),
                "is a table over time: needs --time or --fps");
     }
@@ -161,7 +170,7 @@ std::unique_ptr<Observer> GlareCommand::observer() {
         return std::make_unique<CameraObserver>(camera, ghosts, lights, view, kStarburst, session);
     }
     if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
-    if (motion.alive()) return std::make_unique<LivingEyeObserver>(eye, motion, view, session);
+    if (motion.alive()) return std::make_unique<LivingEyeObserver>(eye, motion, view, book_file, session);
     const Metering metering = frames.empty() ? Metering::kEachPicture : Metering::kFirst;
     return std::make_unique<EyeObserver>(eye, view, metering, field_spacing_deg, session);
 }

@@ -20,10 +20,12 @@ eye::LuminanceCurve curve_from(const std::string& file) {
 }  // namespace
 
 LivingEyeObserver::LivingEyeObserver(const EyeOptions& eye, const MotionOptions& motion,
-                                     const ViewOptions& view, Session& session)
+                                     const ViewOptions& view, const std::string& book,
+                                     Session& session)
     : options_(eye), motion_(motion), view_options_(view), session_(session) {
     motion_.apply(settings_, options_.seed());
     if (!options_.adaptation_file().empty()) adaptation_ = curve_from(options_.adaptation_file());
+    if (!book.empty()) book_.emplace(book);
     // What can be wrong with the settings is found before any picture is read.
     constexpr double kAnyLuminance = 1;
     const View any = View::from_fov(16, 9, 60, Projection::kPerspective);
@@ -51,7 +53,9 @@ std::optional<wave::Psf> LivingEyeObserver::psf(const View& /*display*/, const V
     if (moment_.closed) return std::nullopt;
     eye::EyePsfOptions options;
     options.spectral = options_.sampling();
-    return eye::eye_psf(moment_.eye, wave::KernelGrid::full_reach(data), options, &session_);
+    const auto grid = wave::KernelGrid::full_reach(data);
+    if (book_) return book_->psf(moment_.eye, options.spectral, grid, session_);
+    return eye::eye_psf(moment_.eye, grid, options, &session_);
 }
 
 void LivingEyeObserver::report(nlohmann::ordered_json& json) const {
@@ -66,6 +70,7 @@ void LivingEyeObserver::report(nlohmann::ordered_json& json) const {
                        {"vitreous_pitch_deg", moment_.eye.pose.vitreous_pitch_deg},
                        {"vitreous_roll_deg", moment_.eye.pose.vitreous_roll_deg},
                        {"light_share", moment_.light_share}});
+    if (book_) parameters["book"] = book_->path();
 }
 
 }  // namespace aureole::app

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "aureole/eye/motion.h"
+#include "eye_book.h"
 #include "eye_options.h"
 #include "motion_options.h"
 #include "observer.h"
@@ -16,9 +18,10 @@ namespace aureole::app {
 // order, by any number of runs.
 class LivingEyeObserver : public Observer {
   public:
-    // Reads the files that the options name. Throws FileError, InvalidArgument.
+    // Reads the files that the options name; `book` is a flipbook that the PSFs come from, or
+    // empty: then each is computed. Throws FileError, InvalidArgument.
     LivingEyeObserver(const EyeOptions& eye, const MotionOptions& motion, const ViewOptions& view,
-                      Session& session);
+                      const std::string& book, Session& session);
 
     void set_time(double time_s) override { time_s_ = time_s; }
     View view_of(const io::Picture& picture) override;
@@ -34,6 +37,7 @@ class LivingEyeObserver : public Observer {
     Session& session_;
     eye::MotionSettings settings_;
     std::optional<eye::LuminanceCurve> adaptation_;  // none: each picture's own
+    std::optional<EyeBook> book_;
     View view_;
     double time_s_ = 0;
     double white_luminance_cd_m2_ = 0;

@@ -201,18 +201,27 @@ Flipbook::Flipbook(std::span<const std::byte> bytes) : bytes_(bytes) {
     }
 }
 
-void Flipbook::check_eye(const Eye& eye, const SpectralSampling& sampling) const {
-    const std::vector<NamedValue> wanted = identity_of(eye, sampling);
-    for (std::size_t i = 0; i < std::max(wanted.size(), identity_.size()); ++i) {
-        if (i >= wanted.size() || i >= identity_.size() || wanted[i].name != identity_[i].name) {
-            throw InvalidArgument(
-                "the flipbook was baked with other parameters than this program knows: bake it "
-                "again");
+bool same_pitch(const wave::KernelGrid& a, const wave::KernelGrid& b) noexcept {
+    constexpr double kTolerance = 1e-4;
+    return std::abs(a.pitch_deg / b.pitch_deg - 1) < kTolerance;
+}
+
+std::optional<Flipbook::Difference> Flipbook::difference(const Eye& eye,
+                                                         const SpectralSampling& sampling) const {
+    const std::vector<NamedValue> here = identity_of(eye, sampling);
+    const auto value_in = [](const std::vector<NamedValue>& values, const std::string& name) {
+        const auto found = std::find_if(values.begin(), values.end(),
+                                        [&](const NamedValue& value) { return value.name == name; });
+        return found == values.end() ? std::string() : found->value;
+    };
+    for (const auto* values : {&here, &identity_}) {
+        for (const NamedValue& value : *values) {
+            Difference both{value.name, value_in(here, value.name),
+                            value_in(identity_, value.name)};
+            if (both.here != both.in_book) return both;
         }
-        if (wanted[i] == identity_[i]) continue;
-        throw InvalidArgument(wanted[i].name, wanted[i].value,
-                              "the flipbook was baked with " + identity_[i].value);
     }
+    return std::nullopt;
 }
 
 }  // namespace aureole::eye

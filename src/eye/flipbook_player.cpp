@@ -28,17 +28,22 @@ using Parts = FlipbookParts;
 // Spectra are summed in pieces of this many numbers.
 constexpr std::size_t kPiece = 8192;
 
-void check_grid(const wave::KernelGrid& grid, const wave::KernelGrid& book) {
-    constexpr double kPitchTolerance = 1e-4;
+void check_use(const Flipbook& book, const Eye& eye, const SpectralSampling& sampling,
+               const wave::KernelGrid& grid) {
     check_kernel(grid);
-    if (std::abs(grid.pitch_deg / book.pitch_deg - 1) > kPitchTolerance) {
-        throw InvalidArgument("pitch_deg", fmt::format("{:.6g}", grid.pitch_deg),
-                              fmt::format("the flipbook was baked for {:.6g}", book.pitch_deg));
+    if (const auto difference = book.difference(eye, sampling)) {
+        throw InvalidArgument(difference->name, difference->here,
+                              "the flipbook was baked with " + difference->in_book);
     }
-    if (grid.projection != book.projection) {
-        const bool on = book.projection == Projection::kPerspective;
-        throw InvalidArgument("perspective", on ? "off" : "on",
-                              std::string("the flipbook was baked for ") + (on ? "on" : "off"));
+    if (!same_pitch(grid, book.grid())) {
+        throw InvalidArgument("pitch_deg", fmt::format("{:.6g}", grid.pitch_deg),
+                              fmt::format("the flipbook was baked for {:.6g}",
+                                          book.grid().pitch_deg));
+    }
+    if (grid.projection != book.grid().projection) {
+        const bool on = grid.projection == Projection::kPerspective;
+        throw InvalidArgument("perspective", on ? "on" : "off",
+                              std::string("the flipbook was baked for ") + (on ? "off" : "on"));
     }
 }
 
@@ -86,8 +91,7 @@ FlipbookPlayer::Impl::Impl(const Flipbook& flipbook, const Eye& eye,
       grid(kernel_grid),
       fft(flipbook.transform_size()),
       relative(flipbook.grid().width, flipbook.grid().height, 3) {
-    check_grid(grid, book.grid());
-    book.check_eye(eye, sampling);
+    check_use(book, eye, sampling, grid);
     envelope = flipbook_envelope(eye, book.range(), book.grid());
     const int nodes = eye.scatter == ScatterModel::kIjspeert ? axes.texture_pupils.nodes : 1;
     for (int i = 0; i < nodes; ++i) {

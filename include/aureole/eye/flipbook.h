@@ -24,6 +24,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,11 +50,11 @@ struct FlipbookRange {
     double vitreous_step_deg = 0.2;   // of yaw from one phase to the next, enough to renew most
                                       // needles beyond 2 deg; above 0 to 10
     // Halo: pupils from kHaloFromMm on (none if all are smaller), with the lens at rest.
-    int halo_pupils = 5;  // 1 to 100
+    int halo_pupils = 9;  // 1 to 100
     // Streaks: every pupil with every closure, of lashes alone (Pose::lash_closure) and of lids that
     // cover the pupil with them (Eye::eyelid); the open state is common to both.
-    int streak_pupils = 3;         // 1 to 100
-    int lid_states = 6;            // 1 (open) to 100
+    int streak_pupils = 4;         // 1 to 100
+    int lid_states = 4;            // 1 (open) to 100
     double largest_closure = 0.9;  // of the last state, above 0 to .95
 };
 
@@ -83,6 +84,9 @@ struct NamedValue {
 };
 std::vector<NamedValue> identity_of(const Eye& eye, const SpectralSampling& sampling);
 
+// Whether pixels of two grids have the same size, to a ten-thousandth.
+bool same_pitch(const wave::KernelGrid& a, const wave::KernelGrid& b) noexcept;
+
 // The bytes of a book, checked once and then only looked at.
 class Flipbook {
   public:
@@ -108,9 +112,14 @@ class Flipbook {
     // In the order of frames_of().
     const std::vector<Frame>& frames() const { return frames_; }
 
-    // Throws InvalidArgument that names the first value in which an eye differs from the book's,
-    // and both values.
-    void check_eye(const Eye& eye, const SpectralSampling& sampling) const;
+    // The first value in which an eye differs from the one that was baked; empty texts where one of
+    // them has no such value.
+    struct Difference {
+        std::string name;
+        std::string here;
+        std::string in_book;
+    };
+    std::optional<Difference> difference(const Eye& eye, const SpectralSampling& sampling) const;
 
   private:
     std::span<const std::byte> bytes_;
