@@ -1,7 +1,10 @@
 #include "aureole/eye/flipbook_bake.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include "aureole/base/error.h"
@@ -12,6 +15,16 @@
 #include "eye/kernel_checks.h"
 
 namespace aureole::eye {
+namespace {
+
+double energy_of(const Image& relative, const Image& envelope) {
+    return std::inner_product(relative.plane(0), relative.plane(0) + relative.pixels(),
+                              envelope.plane(0), 0.0, std::plus<>(), [](float value, float e) {
+                                  return static_cast<double>(value) * static_cast<double>(e);
+                              });
+}
+
+}  // namespace
 
 std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& raster,
                                      const FlipbookRange& range, const EyePsfOptions& options,
@@ -31,6 +44,7 @@ std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& ras
     fourier::SymmetricFft fft(raster.width + 1);
     const std::size_t count = spectrum_size(raster);
     std::vector<float> spectrum(count);
+    Image stored(raster.width, raster.height, 1);
     UnsealedBook book = open_book(text);
     std::vector<FlipbookEntry> entries(frames.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -44,13 +58,17 @@ std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& ras
         FlipbookEntry& entry = entries[i];
         entry.weight = term.weight;
         if (term.weight == 0) continue;
-        entry.energy = term.energy;
         auto* halves = reinterpret_cast<std::uint16_t*>(book.bytes.data() + book.head_bytes +
                                                         i * frame_bytes(raster));
         for (std::size_t c = 0; c < 3; ++c) {
             fft.forward(term.relative.view().channel_range(static_cast<int>(c), 1),
                         spectrum.data());
             entry.scale[c] = fourier::encode_spectrum(spectrum, halves + c * count);
+            // The energy of what is stored, not of what was meant, so that none is lost.
+            std::fill(spectrum.begin(), spectrum.end(), 0.0F);
+            fourier::add_spectrum({halves + c * count, count}, entry.scale[c], spectrum.data());
+            fft.inverse(spectrum.data(), nullptr, stored, {});
+            entry.energy[c] = energy_of(stored, envelope);
         }
     }
     if (progress != nullptr) progress->report("frames", 1);

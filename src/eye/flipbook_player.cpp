@@ -223,7 +223,9 @@ void FlipbookPlayer::write(const Eye& now, wave::Psf& psf) noexcept {
     };
     for (const auto& [frame, factor] : halo) add(frame, factor * halo_share);
     for (const auto& [frame, factor] : streaks) add(frame, factor * streak_scale);
+    // Rounding leaves the texture a little energy, which must not add to the bloom's.
     const std::size_t texture = texture_frame(own.axes, now);
+    for (std::size_t c = 0; c < 3; ++c) rest[c] /= 1 + frames[texture].energy[c];
     if (frames[texture].weight != 0) own.add(texture, rest);
     own.play();
     psf.grid = own.grid;

@@ -17,6 +17,8 @@ namespace {
 constexpr double kFadeShare = 0.125;
 // Red still counts there; what longer wavelengths carry farther is a few thousandths.
 constexpr double kReachNm = 650;
+// Radius within which the envelope is flat.
+constexpr int kFlatPx = 4;
 
 double reach_px(const wave::KernelGrid& raster, const wave::ApertureGrid& aperture) {
     const double sine = std::min(mm_from_nm(kReachNm) / (2 * aperture.spacing_mm()), 0.999);
@@ -78,7 +80,15 @@ Image flipbook_envelope(const Eye& eye, const FlipbookRange& range,
                         const wave::KernelGrid& raster) {
     const ScatterPsf scatter(eye.scatter, eye.age_years, eye.pigmentation,
                              (range.pupil_from_mm + range.pupil_to_mm) / 2);
-    return ScatterPixels(scatter, raster).image(raster.width, raster.height);
+    Image envelope = ScatterPixels(scatter, raster).image(raster.width, raster.height);
+    const int centre = raster.width / 2;
+    const float level = envelope.at(centre + kFlatPx, centre);
+    for (int y = -kFlatPx; y <= kFlatPx; ++y) {
+        for (int x = -kFlatPx; x <= kFlatPx; ++x) {
+            if (x * x + y * y < kFlatPx * kFlatPx) envelope.at(centre + x, centre + y) = level;
+        }
+    }
+    return envelope;
 }
 
 FlipbookTerm flipbook_term(Component component, const Eye& eye, const Image& envelope,
@@ -98,7 +108,6 @@ FlipbookTerm flipbook_term(Component component, const Eye& eye, const Image& env
     const bool fades = reach_px(raster, options.aperture) > half;
     const auto weight = static_cast<float>(term.weight);
     for (int c = 0; c < 3; ++c) {
-        double energy = 0;
         for (int y = 0; y < raster.height; ++y) {
             float* value = term.relative.row(y, c);
             for (int x = 0; x < raster.width; ++x) {
@@ -109,11 +118,9 @@ FlipbookTerm flipbook_term(Component component, const Eye& eye, const Image& env
                     const double t = std::clamp(edge / kFadeShare, 0.0, 1.0);
                     value[x] *= static_cast<float>(t * t * (3 - 2 * t));
                 }
-                energy += static_cast<double>(value[x]);
                 value[x] /= envelope.at(x, y);
             }
         }
-        term.energy[static_cast<std::size_t>(c)] = energy;
     }
     return term;
 }

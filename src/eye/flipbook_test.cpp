@@ -154,7 +154,7 @@ TEST_F(FlipbookTest, EnergySumsToOneInKernelsOfAnySize) {
             const wave::Psf psf = played(sized, now);
             const auto sums = plane_sums(psf.kernel);
             for (std::size_t c = 0; c < 3; ++c) {
-                EXPECT_NEAR(sums[c] + psf.off_kernel_energy[c], 1, 3e-5) << width << "x" << height;
+                EXPECT_NEAR(sums[c] + psf.off_kernel_energy[c], 1, 5e-6) << width << "x" << height;
             }
         }
     }
@@ -174,7 +174,7 @@ TEST_F(FlipbookTest, KernelsOfAllSizesAgree) {
         for (int y = 0; y < 31; ++y) {
             for (int x = 0; x < 63; ++x) {
                 const float wanted = small.kernel.at(x, y + 16, c);
-                EXPECT_NEAR(other.kernel.at(x + 19, y, c), wanted, 1e-5F * wanted);
+                EXPECT_NEAR(other.kernel.at(x + 19, y, c), wanted, 1e-5F * std::abs(wanted));
             }
         }
     }
@@ -283,7 +283,7 @@ TEST(Flipbook, FollowsAScatterThatKnowsThePupil) {
     const wave::Psf psf = played(player, eye);
     const auto sums = plane_sums(psf.kernel);
     for (std::size_t c = 0; c < 3; ++c) {
-        EXPECT_NEAR(sums[c] + psf.off_kernel_energy[c], 1, 3e-5);
+        EXPECT_NEAR(sums[c] + psf.off_kernel_energy[c], 1, 5e-6);
     }
 }
 

@@ -7,7 +7,7 @@
 //     player.write(living.at(time_s).eye, psf);                              (each frame)
 //
 // Stored are the terms of the PSF (eye_psf.h) relative to an envelope e, the scatter of the book's
-// middle pupil, each as the spectrum of
+// middle pupil (flat within 4 pixels of the source), each as the spectrum of
 //
 //     texture  S (T' - 1) / e        halo  H / e        streaks  w_e E / e
 //
@@ -105,7 +105,8 @@ class Flipbook {
 
     struct Frame {
         double weight = 0;                   // w_e of streaks, else 1; 0: an empty frame
-        std::array<double, 3> energy = {};   // inside the raster, per colour, weight included
+        std::array<double, 3> energy = {};   // of e times the frame over the raster, per colour;
+                                             // 0 but for rounding in the texture
         std::array<float, 3> scale = {};     // of the halves, per colour
         std::array<std::span<const std::uint16_t>, 3> spectra;
     };
