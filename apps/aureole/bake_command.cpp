@@ -2,12 +2,14 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <vector>
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "aureole/eye/flipbook_bake.h"
+#include "aureole/fourier/sizes.h"
 #include "aureole/io/binary_file.h"
 #include "commands.h"
 #include "eye_options.h"
@@ -43,8 +45,8 @@ struct BakeCommand {
 
 void BakeCommand::add_options(CLI::App& command) {
     const eye::FlipbookRange usual;
-    texture_frames = fmt::format("{},{},{}", usual.texture_pupils, usual.lens_states,
-                                 usual.vitreous_phases);
+    texture_frames =
+        fmt::format("{},{},{}", usual.texture_pupils, usual.lens_states, usual.vitreous_phases);
     streak_frames = fmt::format("{},{}", usual.streak_pupils, usual.lid_states);
     command.add_option("-o,--output", output, "The flipbook: for `aureole glare --book`")
         ->required()
@@ -74,9 +76,8 @@ void BakeCommand::add_options(CLI::App& command) {
                     "P x (L + V - 1) frames")
         ->type_name("P,L,V")
         ->capture_default_str();
-    whole_number(group.add_option("--halo-frames", halo_frames,
-                                  "Of the halo: pupils, from 4 mm on"),
-                 1, 100)
+    whole_number(
+        group.add_option("--halo-frames", halo_frames, "Of the halo: pupils, from 4 mm on"), 1, 100)
         ->type_name("P")
         ->capture_default_str();
     group
@@ -105,14 +106,18 @@ std::vector<int> whole_numbers(const char* option, const std::string& text, std:
         }
     }
     if (numbers && numbers->size() == count && result.size() == count) return result;
-    throw InvalidArgument(option, text,
-                          fmt::format("must be {} whole numbers from 1 to 100, with commas between",
-                                      count));
+    throw InvalidArgument(
+        option, text,
+        fmt::format("must be {} whole numbers from 1 to 100, with commas between", count));
 }
 
 void BakeCommand::check() {
     check_folder(output);
     view_options.check();
+    if (size % 2 != 0 || !fourier::is_smooth(size)) {
+        throw InvalidArgument("--size", fmt::format("{}", size),
+                              "must be even, without prime factors above 7");
+    }
     const auto limits = given_numbers(pupils, ',');
     if (!limits || limits->size() != 2 || !((*limits)[0] >= 1) || !((*limits)[1] <= 9) ||
         !((*limits)[0] <= (*limits)[1])) {
@@ -136,9 +141,9 @@ void BakeCommand::check() {
 }
 
 nlohmann::ordered_json json_of(const eye::FlipbookErrors& errors) {
-    return {{"poses", errors.poses},     {"texture", errors.texture},
-            {"halo", errors.halo},       {"streaks", errors.streaks},
-            {"psf", errors.psf},         {"worst_ring", errors.worst_ring}};
+    return {{"poses", errors.poses}, {"texture", errors.texture},
+            {"halo", errors.halo},   {"streaks", errors.streaks},
+            {"psf", errors.psf},     {"worst_ring", errors.worst_ring}};
 }
 
 void BakeCommand::measure(const eye::Flipbook& book, const eye::Eye& eye,
@@ -146,7 +151,8 @@ void BakeCommand::measure(const eye::Flipbook& book, const eye::Eye& eye,
     auto& json = session.json()["errors"];
     session.timed("measure", [&] {
         json["at_frames"] = json_of(errors_at_frames(book, eye, options, poses, &session));
-        json["between_frames"] = json_of(errors_between_frames(book, eye, options, poses, &session));
+        json["between_frames"] =
+            json_of(errors_between_frames(book, eye, options, poses, &session));
     });
 }
 
@@ -176,23 +182,23 @@ void BakeCommand::run() {
 
     auto& parameters = json["parameters"];
     for (const auto& [name, value] : book.identity()) parameters[name] = value;
-    parameters.update({{"width", view.width},
-                       {"height", view.height},
-                       {"fov_deg", view.horizontal_field_deg()},
-                       {"perspective", view.projection == Projection::kPerspective},
-                       {"pitch_deg", grid.pitch_deg},
-                       {"size", size},
-                       {"pupils_mm", {range.pupil_from_mm, range.pupil_to_mm}},
-                       {"texture_frames",
-                        {range.texture_pupils, range.lens_states, range.vitreous_phases}},
-                       {"halo_frames", range.halo_pupils},
-                       {"streak_frames", {range.streak_pupils, range.lid_states}},
-                       {"lens_scale_span", range.lens_scale_span},
-                       {"vitreous_step_deg", range.vitreous_step_deg},
-                       {"largest_closure", range.largest_closure},
-                       {"threads", thread_count()}});
-    std::string summary =
-        fmt::format("{}\n{} frames, {:.1f} MB\n", output, book.frames().size(), static_cast<double>(bytes.size()) / 1e6);
+    parameters.update(
+        {{"width", view.width},
+         {"height", view.height},
+         {"fov_deg", view.horizontal_field_deg()},
+         {"perspective", view.projection == Projection::kPerspective},
+         {"pitch_deg", grid.pitch_deg},
+         {"size", size},
+         {"pupils_mm", {range.pupil_from_mm, range.pupil_to_mm}},
+         {"texture_frames", {range.texture_pupils, range.lens_states, range.vitreous_phases}},
+         {"halo_frames", range.halo_pupils},
+         {"streak_frames", {range.streak_pupils, range.lid_states}},
+         {"lens_scale_span", range.lens_scale_span},
+         {"vitreous_step_deg", range.vitreous_step_deg},
+         {"largest_closure", range.largest_closure},
+         {"threads", thread_count()}});
+    std::string summary = fmt::format("{}\n{} frames, {:.1f} MB\n", output, book.frames().size(),
+                                      static_cast<double>(bytes.size()) / 1e6);
     if (poses > 0) {
         const auto& errors = json["errors"];
         const auto percent = [](const nlohmann::ordered_json& value) {
@@ -201,9 +207,9 @@ void BakeCommand::run() {
         summary += fmt::format(
             "at its frames within {:.2g} % (worst ring from 0.3 to 5 deg), between them texture "
             "{:.0f} %, halo {:.0f} %, streaks {:.0f} %, all {:.1f} %\n",
-            percent(errors["at_frames"]["worst_ring"]), percent(errors["between_frames"]["texture"]),
-            percent(errors["between_frames"]["halo"]), percent(errors["between_frames"]["streaks"]),
-            percent(errors["between_frames"]["psf"]));
+            percent(errors["at_frames"]["worst_ring"]),
+            percent(errors["between_frames"]["texture"]), percent(errors["between_frames"]["halo"]),
+            percent(errors["between_frames"]["streaks"]), percent(errors["between_frames"]["psf"]));
     }
     session.finish(summary);
 }

@@ -50,8 +50,8 @@ void EyeBook::open_for(const eye::Eye& eye, const eye::SpectralSampling& samplin
     if (player_ && same(player_->grid(), grid)) return;
     const auto refuse = [this](const std::string& what, const std::string& here,
                                const std::string& baked) {
-        throw InvalidArgument(
-            fmt::format("--book {}: was baked with {} {}, and here it is {}", path_, what, baked, here));
+        throw InvalidArgument(fmt::format("--book {}: was baked with {} {}, and here it is {}",
+                                          path_, what, baked, here));
     };
     if (const auto difference = book_.difference(eye, sampling)) {
         refuse(option_of(difference->name), difference->here, difference->in_book);

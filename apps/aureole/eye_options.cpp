@@ -30,8 +30,8 @@ void EyeOptions::add_options_but_preset(CLI::App& command) {
 
 void EyeOptions::add_options_of_the_person(CLI::App& command) {
     add_options(command);
-    for (const char* name : {"--halo", "--streaks", "--pupil", "--pupil-model", "--adaptation",
-                             "--eyelid"}) {
+    for (const char* name :
+         {"--halo", "--streaks", "--pupil", "--pupil-model", "--adaptation", "--eyelid"}) {
         group_->remove_option(group_->get_option(name));
     }
     adaptation_option_ = nullptr;

@@ -21,8 +21,8 @@ class EyeOptions {
     // The others, for commands whose --preset knows further words and whose --adaptation may be a
     // table over time.
     void add_options_but_preset(CLI::App& command);
-    // Those that say whose eye it is, for flipbooks: how it is at a moment, and how much of the halo
-    // and the streaks is seen, is chosen when they are used.
+    // Those that say whose eye it is, for flipbooks: how it is at a moment, and how much of the
+    // halo and the streaks is seen, is chosen when they are used.
     void add_options_of_the_person(CLI::App& command);
     void set_preset(const std::string& word) { preset_ = word; }
 

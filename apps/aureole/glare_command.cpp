@@ -170,7 +170,8 @@ std::unique_ptr<Observer> GlareCommand::observer() {
         return std::make_unique<CameraObserver>(camera, ghosts, lights, view, kStarburst, session);
     }
     if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
-    if (motion.alive()) return std::make_unique<LivingEyeObserver>(eye, motion, view, book_file, session);
+    if (motion.alive())
+        return std::make_unique<LivingEyeObserver>(eye, motion, view, book_file, session);
     const Metering metering = frames.empty() ? Metering::kEachPicture : Metering::kFirst;
     return std::make_unique<EyeObserver>(eye, view, metering, field_spacing_deg, session);
 }

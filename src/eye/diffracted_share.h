@@ -13,7 +13,9 @@ inline bool shows_fibres(const Eye& eye) noexcept {
 }
 
 // w_h, and 0 where there is no halo to be weighted.
-inline double visible_halo_weight(const Eye& eye) { return shows_fibres(eye) ? halo_weight(eye) : 0; }
+inline double visible_halo_weight(const Eye& eye) {
+    return shows_fibres(eye) ? halo_weight(eye) : 0;
+}
 
 // At most half of the light goes there, whatever the looks ask for: what a share of both together
 // must be multiplied by.

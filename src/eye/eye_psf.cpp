@@ -142,9 +142,9 @@ wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOpti
             ScatterPsf(eye.scatter, eye.age_years, eye.pigmentation, eye.pupil_diameter_mm), grid);
         fill_scatter(scatter, rest, psf.kernel);
         if (corona) {
-            multiply_patch(
-                psf.kernel, patch,
-                corona_texture(*corona, scatter.image(patch.width, patch.height), eye.corona_contrast));
+            multiply_patch(psf.kernel, patch,
+                           corona_texture(*corona, scatter.image(patch.width, patch.height),
+                                          eye.corona_contrast));
         }
         for (std::size_t c = 0; c < 3; ++c) {
             psf.off_kernel_energy[c] = rest[c] * scatter.off_kernel_energy();

@@ -66,11 +66,10 @@ FlipbookPreamble checked_preamble(std::span<const std::byte> bytes) {
     }
     if (preamble.version < kFlipbookVersion) throw InvalidArgument("is damaged: it has no version");
     if (bytes.size() != preamble.file_bytes) {
-        throw InvalidArgument(fmt::format("has {} bytes and says that it should have {}: it is {}",
-                                          bytes.size(), preamble.file_bytes,
-                                          bytes.size() < preamble.file_bytes
-                                              ? "cut off"
-                                              : "damaged, or something was added"));
+        throw InvalidArgument(fmt::format(
+            "has {} bytes and says that it should have {}: it is {}", bytes.size(),
+            preamble.file_bytes,
+            bytes.size() < preamble.file_bytes ? "cut off" : "damaged, or something was added"));
     }
     const std::size_t head = preamble.head_bytes;
     if (head > bytes.size() || head % kHeadAlignment != 0 ||
@@ -84,10 +83,10 @@ FlipbookPreamble checked_preamble(std::span<const std::byte> bytes) {
 std::string frame_name(const FlipbookRange& range, std::size_t frame) {
     const FlipbookAxes axes(range);
     const auto [term, first] =
-        frame < axes.first_halo      ? std::pair<const char*, std::size_t>{"texture", 0}
-        : frame < axes.first_streaks ? std::pair<const char*, std::size_t>{"halo", axes.first_halo}
-                                     : std::pair<const char*, std::size_t>{"streaks",
-                                                                           axes.first_streaks};
+        frame < axes.first_halo ? std::pair<const char*, std::size_t>{"texture", 0}
+        : frame < axes.first_streaks
+            ? std::pair<const char*, std::size_t>{"halo", axes.first_halo}
+            : std::pair<const char*, std::size_t>{"streaks", axes.first_streaks};
     return fmt::format("frame {} of the {}", frame - first, term);
 }
 
@@ -160,8 +159,8 @@ Flipbook::Flipbook(std::span<const std::byte> bytes) : bytes_(bytes) {
     const FlipbookPreamble preamble = checked_preamble(bytes);
     FlipbookText text;
     try {
-        text = read_flipbook_text({reinterpret_cast<const char*>(bytes.data()) + sizeof preamble,
-                                   preamble.text_bytes});
+        text = read_flipbook_text(
+            {reinterpret_cast<const char*>(bytes.data()) + sizeof preamble, preamble.text_bytes});
     } catch (const InvalidArgument& error) {
         throw InvalidArgument(std::string("is damaged: ") + error.what());
     }
@@ -178,8 +177,8 @@ Flipbook::Flipbook(std::span<const std::byte> bytes) : bytes_(bytes) {
     frames_.resize(frames);
     std::vector<std::uint8_t> good(frames);
     parallel_for(frames, [&](std::size_t i, int) {
-        const auto entry = read<FlipbookEntry>(
-            bytes, entries_at(preamble.text_bytes) + i * sizeof(FlipbookEntry));
+        const auto entry =
+            read<FlipbookEntry>(bytes, entries_at(preamble.text_bytes) + i * sizeof(FlipbookEntry));
         const auto stored = bytes.subspan(preamble.head_bytes + i * size, size);
         const auto* halves = reinterpret_cast<const std::uint16_t*>(stored.data());
         good[i] = crc32(stored) == entry.crc && is_finite(entry) && all_finite({halves, size / 2})
@@ -210,8 +209,9 @@ std::optional<Flipbook::Difference> Flipbook::difference(const Eye& eye,
                                                          const SpectralSampling& sampling) const {
     const std::vector<NamedValue> here = identity_of(eye, sampling);
     const auto value_in = [](const std::vector<NamedValue>& values, const std::string& name) {
-        const auto found = std::find_if(values.begin(), values.end(),
-                                        [&](const NamedValue& value) { return value.name == name; });
+        const auto found = std::find_if(values.begin(), values.end(), [&](const NamedValue& value) {
+            return value.name == name;
+        });
         return found == values.end() ? std::string() : found->value;
     };
     for (const auto* values : {&here, &identity_}) {

@@ -37,8 +37,7 @@ std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& ras
                               "must be cie or ijspeert: a flipbook stores what the scatter does "
                               "not say");
     }
-    const FlipbookText text{raster, options.aperture, range,
-                            identity_of(eye, options.spectral)};
+    const FlipbookText text{raster, options.aperture, range, identity_of(eye, options.spectral)};
     const std::vector<FlipbookFrame> frames = frames_of(range);
     const Image envelope = flipbook_envelope(eye, range, raster);
     fourier::SymmetricFft fft(raster.width + 1);
@@ -49,12 +48,11 @@ std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& ras
     std::vector<FlipbookEntry> entries(frames.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (progress != nullptr) {
-            progress->report("frames",
-                             static_cast<double>(i) / static_cast<double>(frames.size()));
+            progress->report("frames", static_cast<double>(i) / static_cast<double>(frames.size()));
             if (progress->cancelled()) throw Cancelled();
         }
-        const FlipbookTerm term = flipbook_term(frames[i].component, eye_at(eye, frames[i]),
-                                                envelope, raster, options);
+        const FlipbookTerm term =
+            flipbook_term(frames[i].component, eye_at(eye, frames[i]), envelope, raster, options);
         FlipbookEntry& entry = entries[i];
         entry.weight = term.weight;
         if (term.weight == 0) continue;

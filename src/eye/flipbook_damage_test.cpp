@@ -106,8 +106,8 @@ TEST(FlipbookDamage, LengthsAreNamed) {
     for (const std::size_t length : {std::size_t{0}, std::size_t{7}, std::size_t{39}}) {
         EXPECT_THAT(refusal(all.first(length)), HasSubstr("is no flipbook")) << length;
     }
-    for (const std::size_t length : {std::size_t{40}, std::size_t{64}, bytes.size() / 2,
-                                     bytes.size() - 1}) {
+    for (const std::size_t length :
+         {std::size_t{40}, std::size_t{64}, bytes.size() / 2, bytes.size() - 1}) {
         EXPECT_THAT(refusal(all.first(length)), HasSubstr("cut off")) << length;
     }
     std::vector<std::byte> longer = bytes;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include "aureole/base/error.h"
@@ -92,7 +93,8 @@ class Measurement {
             double difference = 0, sum = 0;
             int count = 0;
         };
-        std::vector<Ring> rings(static_cast<std::size_t>(std::lround((kToDeg - kFromDeg) / kRingDeg)) + 1);
+        std::vector<Ring> rings(
+            static_cast<std::size_t>(std::lround((kToDeg - kFromDeg) / kRingDeg)) + 1);
         over_annulus([&](int x, int y, double angle) {
             Ring& ring = rings[static_cast<std::size_t>((angle - kFromDeg) / kRingDeg)];
             const auto e = static_cast<double>(player_.envelope().at(x, y));
@@ -160,12 +162,17 @@ FlipbookErrors errors_at_frames(const Flipbook& book, const Eye& eye, const EyeP
                                      : frame.pupil_mm < kHaloFromMm;
         if (!is_node(axes.streak_pupils, frame.pupil_mm)) continue;
         if (!halo_stored && halo_weight(now) > 0) continue;
-        now.pose.lash_closure = axes.closures.at(static_cast<int>(all.size()) % axes.closures.nodes);
+        now.pose.lash_closure =
+            axes.closures.at(static_cast<int>(all.size()) % axes.closures.nodes);
         all.push_back(now);
     }
+    // In steps that share no factor with their number, so that pupils and states mix.
+    std::size_t step = all.size() * 3 / 8;
+    while (step > 1 && std::gcd(step, all.size()) > 1) --step;
     std::vector<Eye> chosen;
-    const auto count = std::min(static_cast<std::size_t>(std::max(poses, 0)), all.size());
-    for (std::size_t i = 0; i < count; ++i) chosen.push_back(all[(2 * i + 1) * all.size() / (2 * count)]);
+    for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(poses), all.size()); ++i) {
+        chosen.push_back(all[i * std::max<std::size_t>(step, 1) % all.size()]);
+    }
     return measure(book, eye, options, chosen, progress);
 }
 

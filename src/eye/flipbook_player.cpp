@@ -15,8 +15,8 @@
 #include "aureole/fourier/half_spectrum.h"
 #include "aureole/fourier/symmetric_fft.h"
 #include "eye/diffracted_share.h"
-#include "eye/flipbook_terms.h"
 #include "eye/flipbook_selection.h"
+#include "eye/flipbook_terms.h"
 #include "eye/kernel_checks.h"
 #include "eye/scatter_pixels.h"
 
@@ -36,9 +36,9 @@ void check_use(const Flipbook& book, const Eye& eye, const SpectralSampling& sam
                               "the flipbook was baked with " + difference->in_book);
     }
     if (!same_pitch(grid, book.grid())) {
-        throw InvalidArgument("pitch_deg", fmt::format("{:.6g}", grid.pitch_deg),
-                              fmt::format("the flipbook was baked for {:.6g}",
-                                          book.grid().pitch_deg));
+        throw InvalidArgument(
+            "pitch_deg", fmt::format("{:.6g}", grid.pitch_deg),
+            fmt::format("the flipbook was baked for {:.6g}", book.grid().pitch_deg));
     }
     if (grid.projection != book.grid().projection) {
         const bool on = grid.projection == Projection::kPerspective;
@@ -95,9 +95,9 @@ FlipbookPlayer::Impl::Impl(const Flipbook& flipbook, const Eye& eye,
     envelope = flipbook_envelope(eye, book.range(), book.grid());
     const int nodes = eye.scatter == ScatterModel::kIjspeert ? axes.texture_pupils.nodes : 1;
     for (int i = 0; i < nodes; ++i) {
-        const ScatterPixels pixels(ScatterPsf(eye.scatter, eye.age_years, eye.pigmentation,
-                                              axes.texture_pupils.at(i)),
-                                   grid);
+        const ScatterPixels pixels(
+            ScatterPsf(eye.scatter, eye.age_years, eye.pigmentation, axes.texture_pupils.at(i)),
+            grid);
         Quadrant quadrant{Image(grid.width / 2 + 1, grid.height / 2 + 1, 1),
                           pixels.off_kernel_energy()};
         parallel_for(static_cast<std::size_t>(quadrant.energy.height()), [&](std::size_t y, int) {
@@ -141,8 +141,8 @@ void FlipbookPlayer::Impl::fill(const std::array<double, 3>& rest, double pupil_
     const int half_height = grid.height / 2;
     const int raster = book.grid().width / 2;
     const int reach = std::min(raster, half_width);
-    const auto [node, share] = scatter.size() == 1 ? FlipbookAxis::Place{0, 0}
-                                                   : axes.texture_pupils.place(pupil_mm);
+    const auto [node, share] =
+        scatter.size() == 1 ? FlipbookAxis::Place{0, 0} : axes.texture_pupils.place(pupil_mm);
     const Quadrant& low = scatter[static_cast<std::size_t>(node)];
     const Quadrant& high = share > 0 ? scatter[static_cast<std::size_t>(node) + 1] : low;
     const auto second = static_cast<float>(share);
@@ -152,7 +152,8 @@ void FlipbookPlayer::Impl::fill(const std::array<double, 3>& rest, double pupil_
         if (share > 0) {
             float* mixed = rows[static_cast<std::size_t>(worker)].data();
             const float* other = high.energy.row(dy, 0);
-            for (int x = 0; x <= half_width; ++x) mixed[x] = line[x] + second * (other[x] - line[x]);
+            for (int x = 0; x <= half_width; ++x)
+                mixed[x] = line[x] + second * (other[x] - line[x]);
             line = mixed;
         }
         for (int c = 0; c < 3; ++c) {
@@ -171,8 +172,8 @@ void FlipbookPlayer::Impl::fill(const std::array<double, 3>& rest, double pupil_
     });
     for (std::size_t c = 0; c < 3; ++c) {
         psf.off_kernel_energy[c] =
-            rest[c] * (low.off_kernel_energy +
-                       share * (high.off_kernel_energy - low.off_kernel_energy));
+            rest[c] *
+            (low.off_kernel_energy + share * (high.off_kernel_energy - low.off_kernel_energy));
     }
     if (raster <= half_width && raster <= half_height) return;
     // Small pictures: what the raster holds beyond the kernel leaves it too.

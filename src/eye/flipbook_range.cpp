@@ -99,8 +99,8 @@ FlipbookAxes::FlipbookAxes(const FlipbookRange& range)
     if (lens.nodes == 1) lens.first = 1;
     first_halo = static_cast<std::size_t>(texture_pupils.nodes * states());
     first_streaks = first_halo + static_cast<std::size_t>(halo_pupils.nodes);
-    frames = first_streaks +
-             static_cast<std::size_t>(streak_pupils.nodes * (2 * closures.nodes - 1));
+    frames =
+        first_streaks + static_cast<std::size_t>(streak_pupils.nodes * (2 * closures.nodes - 1));
 }
 
 std::size_t texture_frame(const FlipbookAxes& axes, const Eye& eye) noexcept {
@@ -112,8 +112,7 @@ std::size_t texture_frame(const FlipbookAxes& axes, const Eye& eye) noexcept {
                              3 * steps(pose.vitreous_roll_deg);
     const long long loop = axes.vitreous_phases;
     const auto phase = static_cast<int>((turned % loop + loop) % loop);
-    const int state =
-        phase == 0 ? axes.lens.nearest(pose.lens_scale) : axes.lens.nodes + phase - 1;
+    const int state = phase == 0 ? axes.lens.nearest(pose.lens_scale) : axes.lens.nodes + phase - 1;
     const int pupil = axes.texture_pupils.nearest(eye.pupil_diameter_mm);
     return static_cast<std::size_t>(pupil * axes.states() + state);
 }

@@ -74,9 +74,7 @@ bool identical(const Image& a, const Image& b) {
 
 class FlipbookTest : public testing::Test {
   protected:
-    FlipbookTest()
-        : book(small_book()),
-          player(book, Eye(), small_options().spectral, kRaster) {}
+    FlipbookTest() : book(small_book()), player(book, Eye(), small_options().spectral, kRaster) {}
 
     Flipbook book;
     FlipbookPlayer player;
@@ -101,8 +99,9 @@ TEST_F(FlipbookTest, HasTheFramesOfItsRange) {
             EXPECT_EQ(texture_frame(axes, now), i);
             continue;
         }
-        const FlipbookParts parts =
-            frames[i].component == Component::kHalo ? halo_parts(axes, now) : streak_parts(axes, now);
+        const FlipbookParts parts = frames[i].component == Component::kHalo
+                                        ? halo_parts(axes, now)
+                                        : streak_parts(axes, now);
         ASSERT_EQ(parts.count, 1U) << i;
         EXPECT_EQ(parts.begin()->frame, i);
         EXPECT_EQ(parts.begin()->factor, 1);
@@ -130,8 +129,7 @@ TEST_F(FlipbookTest, IsTheDirectPsfAtItsFrames) {
             }
         }
     }
-    const FlipbookErrors errors =
-        errors_at_frames(book, Eye(), small_options(), 4);
+    const FlipbookErrors errors = errors_at_frames(book, Eye(), small_options(), 4);
     EXPECT_EQ(errors.poses, 4);
     EXPECT_LT(errors.worst_ring, 5e-3);
 }
@@ -210,7 +208,8 @@ TEST_F(FlipbookTest, HaloAndStreaksAreStraightBetweenFrames) {
         now.eyelid = eyelid;
         return term(player, component, now);
     };
-    const auto expect_mix = [](const Image& mix, const std::vector<std::pair<double, Image>>& parts) {
+    const auto expect_mix = [](const Image& mix,
+                               const std::vector<std::pair<double, Image>>& parts) {
         Image wanted(mix.width(), mix.height(), 3);
         double size = 0;
         for (const auto& [share, image] : parts) {
@@ -222,8 +221,8 @@ TEST_F(FlipbookTest, HaloAndStreaksAreStraightBetweenFrames) {
         EXPECT_LT(rms_difference(mix, wanted), 1e-5 * size);
         EXPECT_GT(rms_difference(mix, parts.front().second), 0.01 * size);
     };
-    expect_mix(at(Component::kHalo, 5.5, 0, 0), {{0.75, at(Component::kHalo, 5, 0, 0)},
-                                                 {0.25, at(Component::kHalo, 7, 0, 0)}});
+    expect_mix(at(Component::kHalo, 5.5, 0, 0),
+               {{0.75, at(Component::kHalo, 5, 0, 0)}, {0.25, at(Component::kHalo, 7, 0, 0)}});
     expect_mix(at(Component::kStreaks, 5, 0.3, 0.1),
                {{0.4, at(Component::kStreaks, 5, 0, 0)},
                 {0.6 * 2 / 3, at(Component::kStreaks, 5, 0.5, 0)},

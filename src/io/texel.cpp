@@ -71,7 +71,8 @@ struct Range {
 Range range_of(Sample sample, int channel) {
     switch (sample) {
         case Sample::kHalf:
-            return {-largest_small_float(kHalfMantissaBits), largest_small_float(kHalfMantissaBits)};
+            return {-largest_small_float(kHalfMantissaBits),
+                    largest_small_float(kHalfMantissaBits)};
         case Sample::kFloat:
             return {std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max()};
         case Sample::kR11G11B10:

@@ -42,8 +42,8 @@ struct FlipbookRange {
     double pupil_to_mm = 8;    // pupil_from_mm to 9
     // Texture: every pupil with every particle state. These are the states of the lens with the
     // vitreous at rest, then the phases of a turning vitreous with the lens at rest.
-    int texture_pupils = 7;          // 1 to 100
-    int lens_states = 3;             // 1 to 99, odd: the one in the middle is at rest
+    int texture_pupils = 7;           // 1 to 100
+    int lens_states = 3;              // 1 to 99, odd: the one in the middle is at rest
     double lens_scale_span = 0.0018;  // largest deviation of Pose::lens_scale from 1 that has a
                                       // state: accommodation by a quarter dioptre. 0 to .05
     int vitreous_phases = 4;          // 1 (at rest) to 100
@@ -51,8 +51,8 @@ struct FlipbookRange {
                                       // needles beyond 2 deg; above 0 to 10
     // Halo: pupils from kHaloFromMm on (none if all are smaller), with the lens at rest.
     int halo_pupils = 9;  // 1 to 100
-    // Streaks: every pupil with every closure, of lashes alone (Pose::lash_closure) and of lids that
-    // cover the pupil with them (Eye::eyelid); the open state is common to both.
+    // Streaks: every pupil with every closure, of lashes alone (Pose::lash_closure) and of lids
+    // that cover the pupil with them (Eye::eyelid); the open state is common to both.
     int streak_pupils = 4;         // 1 to 100
     int lid_states = 4;            // 1 (open) to 100
     double largest_closure = 0.9;  // of the last state, above 0 to .95
@@ -104,10 +104,10 @@ class Flipbook {
     std::size_t bytes() const { return bytes_.size(); }
 
     struct Frame {
-        double weight = 0;                   // w_e of streaks, else 1; 0: an empty frame
-        std::array<double, 3> energy = {};   // of e times the frame over the raster, per colour;
-                                             // 0 but for rounding in the texture
-        std::array<float, 3> scale = {};     // of the halves, per colour
+        double weight = 0;                  // w_e of streaks, else 1; 0: an empty frame
+        std::array<double, 3> energy = {};  // of e times the frame over the raster, per colour;
+                                            // 0 but for rounding in the texture
+        std::array<float, 3> scale = {};    // of the halves, per colour
         std::array<std::span<const std::uint16_t>, 3> spectra;
     };
     // In the order of frames_of().

@@ -14,10 +14,10 @@ namespace aureole::eye {
 // even 7-smooth number from 64 to 4096 (511: 0.79 MB per frame); its pitch and projection are those
 // of the pictures. Patterns that the raster cuts fade out over the last eighth of its half width,
 // and their energy stays in the bloom.
-// Pupil, eyelid, pose, halo and streaks of `eye` do not matter. The bytes are the same on any number
-// of threads. Takes a PSF component per frame.
-// Throws InvalidArgument for values outside their ranges and for ScatterModel::kNone (an Airy
-// pattern has no envelope that is not zero somewhere), Cancelled.
+// Pupil, eyelid, pose, halo and streaks of `eye` do not matter. The bytes are the same on any
+// number of threads. Takes a PSF component per frame. Throws InvalidArgument for values outside
+// their ranges and for ScatterModel::kNone (an Airy pattern has no envelope that is not zero
+// somewhere), Cancelled.
 std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& raster,
                                      const FlipbookRange& range = {},
                                      const EyePsfOptions& options = {},
@@ -29,8 +29,8 @@ struct FlipbookErrors {
     double texture = 0;  // of T' - 1; two patterns that have nothing in common differ by sqrt(2)
     double halo = 0;
     double streaks = 0;
-    double psf = 0;            // of the whole PSF
-    double worst_ring = 0;     // of the whole PSF, in the worst ring of a tenth of a degree
+    double psf = 0;         // of the whole PSF
+    double worst_ring = 0;  // of the whole PSF, in the worst ring of a tenth of a degree
     int poses = 0;
 };
 

@@ -16,9 +16,9 @@ class FlipbookPlayer {
   public:
     // `eye` gives all that a book does not hold: age and the other parameters of the scatter.
     // `grid` is that of the PSFs, of any odd size: beyond the book's raster they are scatter alone.
-    // Memory: about 12 floats per pixel of the raster; and for a quarter of the pixels of `grid` one
-    // float, or one per texture pupil if the scatter knows the pupil (IJspeert).
-    // Throws InvalidArgument if the eye, the pitch or the projection is not that of the book.
+    // Memory: about 12 floats per pixel of the raster; and for a quarter of the pixels of `grid`
+    // one float, or one per texture pupil if the scatter knows the pupil (IJspeert). Throws
+    // InvalidArgument if the eye, the pitch or the projection is not that of the book.
     FlipbookPlayer(const Flipbook& book, const Eye& eye, const SpectralSampling& sampling,
                    const wave::KernelGrid& grid);
     ~FlipbookPlayer();
@@ -30,8 +30,9 @@ class FlipbookPlayer {
     // The PSF of the eye as it is now: pupil, eyelid, pose, halo and streaks count. Outside the
     // book's range the nearest pose in it serves.
     //   texture: the nearest frame. A vitreous that has turned by (yaw, pitch, roll) steps is at
-    //            phase yaw + 2 pitch + 3 roll, rounded each, in a loop over all phases: one particle
-    //            pattern is as good as another, and neighbours differ. The lens counts at phase 0
+    //            phase yaw + 2 pitch + 3 roll, rounded each, in a loop over all phases: one
+    //            particle pattern is as good as another, and neighbours differ. The lens counts at
+    //            phase 0
     //   halo:    between two pupils
     //   streaks: between two pupils, two closures, and lashes alone and covering lids
     // `psf` must have grid()'s kernel of three channels. Its energy sums to 1, as eye_psf's.
