@@ -47,13 +47,14 @@ FarLayer::FarLayer(int width, int height, int channels, const FarKernel& kernel)
 }
 
 FarLayer::Plan FarLayer::plan(const ConstImageView& light, const float* weights,
-                              const sources::BrightnessHistogram& measured, float dim_limit,
+                              const sources::BrightnessHistogram& measured, const Limits& limits,
                               double cluster_error, double most_lost) {
     sources::ClusterOptions options;
     options.cells = false;
     options.max_side = kClusterSide;
     options.error = cluster_error;
-    options.dim_limit = dim_limit;
+    options.dim_limit = limits.dim;
+    options.full_limit = limits.full;
     const sources::Clusters found =
         sources::find_clusters(light, weights, roughness_, options, &measured);
     // Coarse pixels stand for scale^2 of the picture.

@@ -84,6 +84,8 @@ std::string_view name_of(MethodReport::Reason reason) noexcept {
             return "asked";
         case MethodReport::Reason::kNoGain:
             return "no-gain";
+        case MethodReport::Reason::kBlocks:
+            return "blocks";
         case MethodReport::Reason::kSample:
             return "sample";
         case MethodReport::Reason::kHistogram:

@@ -71,8 +71,12 @@ Hybrid::Hybrid(int width, int height, int channels, const ConstImageView& kernel
     }
 }
 
+double Hybrid::dim_share() const {
+    return std::min(1.0, kShareOfDimLight * error_ / far_->share());
+}
+
 float Hybrid::dim_limit(const sources::BrightnessHistogram& histogram) const {
-    return histogram.dim_limit(std::min(1.0, kShareOfDimLight * error_ / far_->share()));
+    return histogram.dim_limit(dim_share());
 }
 
 Hybrid::Plan Hybrid::plan(const ConstImageView& light, const float* weights,
@@ -80,8 +84,8 @@ Hybrid::Plan Hybrid::plan(const ConstImageView& light, const float* weights,
     Plan plan;
     plan.energy = histogram.energy();
     const FarLayer::Plan distant =
-        far_->plan(light, weights, histogram, dim_limit(histogram), kShareOfClusters * error_,
-                   kShareOfCrop * error_ * plan.energy);
+        far_->plan(light, weights, histogram, {.dim = dim_limit(histogram)},
+                   kShareOfClusters * error_, kShareOfCrop * error_ * plan.energy);
     const double left_out = far_->share() * distant.energy_left;
     plan.sprites = distant.sprites;
     plan.energy_cut = distant.energy_cut + left_out;

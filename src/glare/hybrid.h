@@ -33,6 +33,8 @@ class Hybrid {
     Hybrid(int width, int height, int channels, const ConstImageView& kernel, double error,
            const FarKernel* split);
 
+    // Of the energy, what may go without its far part: for BrightnessHistogram::count().
+    double dim_share() const;
     // Pixels above it get their far part.
     float dim_limit(const sources::BrightnessHistogram& histogram) const;
 
@@ -53,6 +55,7 @@ class Hybrid {
     fourier::Convolver& convolver() { return *convolver_; }
     // Whether there is something to plan: else the result has the same cost for all pictures.
     bool has_far() const { return far_.has_value(); }
+    FarLayer* far() { return far_ ? &*far_ : nullptr; }
     // Of the kernel's sum of |k|, what is cut off without a far layer.
     double lost() const { return lost_; }
 

@@ -77,14 +77,17 @@ struct MethodReport {
     enum class Reason {
         kAsked,      // no kAuto
         kNoGain,     // whatever the picture, nothing else can be faster
-        kSample,     // some rows show too much light for sprites
-        kHistogram,  // the whole picture does
+        kBlocks,     // light in too many places for sprites
+        kSample,     // some blocks of pixels show too much of it
+        kHistogram,  // all of them do
         kPredicted,  // lights were looked for, and costs compared
     };
     struct Candidate {
         Method method = Method::kFft;
-        double predicted_seconds = 0;  // kAuto only, looking included; 0: ruled out before
-        double actual_seconds = 0;     // when it was used last; 0: never
+        // kAuto only, corrected by what the last pictures took; of sprites, and of a hybrid with
+        // something to plan, looking and planning included; 0: ruled out before.
+        double predicted_seconds = 0;
+        double actual_seconds = 0;  // when it was used last; 0: never
     };
     Method method = Method::kFft;
     Reason reason = Reason::kAsked;
@@ -104,8 +107,8 @@ class Glare {
     // what lies beyond it counts as off the picture. The PSF is not kept.
     // Throws InvalidArgument for other channel counts, negative threshold or gain, and when the
     // PSF was made for another pitch or projection than the view's (by more than 0.1 %), and for
-    // cluster_error and cluster_side out of range. The first kAuto of a process measures the
-    // machine for some 50 ms.
+    // cluster_error and cluster_side out of range. kAuto times the methods for some 100 ms, the
+    // first one of a process a little longer.
     Glare(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options = {});
     ~Glare();
     Glare(Glare&&) noexcept;
