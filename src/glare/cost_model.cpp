@@ -221,7 +221,7 @@ DrawingSpeed drawing_speed(SpriteLayer& layer, int channels) {
     constexpr int kLeastSprites = 24;
     constexpr double kPixelsDrawn = 1.5e7;
     DrawingTimer timer(layer, channels);
-    const double area = typical_work(layer, layer.profile().end()).pixels();
+    const double area = typical_work(layer, layer.profile().end(), 0).pixels();
     const int count =
         std::clamp(static_cast<int>(kPixelsDrawn / area), kLeastSprites, kSmallSprites);
     const auto full = timer.seconds(clusters_over(layer, count, 0, 1), 0);
@@ -246,11 +246,13 @@ DrawingSpeed drawing_speed(SpriteLayer& layer, int channels) {
     return speed;
 }
 
-SpriteWork typical_work(const SpriteLayer& layer, double radius) {
+SpriteWork typical_work(const SpriteLayer& layer, double radius, double between_pixels) {
     const double width = std::min(2 * radius, static_cast<double>(layer.width()));
     const double height = std::min(2 * radius, static_cast<double>(layer.height()));
     SpriteWork work;
-    work.four_tap_pixels = std::min(kPi * radius * radius, width * height);
+    const double area = std::min(kPi * radius * radius, width * height);
+    work.four_tap_pixels = between_pixels * area;
+    work.one_tap_pixels = area - work.four_tap_pixels;
     work.rows = height * (1 + width / SpriteTiles::kWidth);
     return work;
 }

@@ -34,8 +34,9 @@ struct DrawingSpeed {
 // Draws a few sprites for some ms: replaces those of the layer.
 DrawingSpeed drawing_speed(SpriteLayer& layer, int channels);
 
-// Of one sprite between pixels, drawn in the middle up to a radius in pixels of the layer.
-SpriteWork typical_work(const SpriteLayer& layer, double radius);
+// Of one sprite, drawn up to a radius in pixels of the layer, if that share of all is between
+// pixels.
+SpriteWork typical_work(const SpriteLayer& layer, double radius, double between_pixels);
 
 // The less of a few runs.
 double transform_seconds(fourier::Convolver& convolver);

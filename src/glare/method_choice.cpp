@@ -22,6 +22,8 @@ constexpr int kSampleStep = 8;
 // picture has told.
 constexpr double kSpritesPerEdgePixel = 0.7;
 constexpr double kFarSpritesPerBlock = 0.8;
+// Of sprites, the others being single pixels and cells.
+constexpr double kBetweenPixels = 0.5;
 
 double pixels_of(const fourier::Convolver& convolver) {
     return static_cast<double>(convolver.width()) * convolver.height();
@@ -40,7 +42,8 @@ double CostCorrection::of(Method method) const {
     return std::exp(pace_ + model_[static_cast<std::size_t>(method)]);
 }
 
-void CostCorrection::observe(Method method, double predicted_seconds, double actual_seconds) {
+void CostCorrection::observe(Method method, double predicted_seconds, double actual_seconds,
+                             double matters) {
     constexpr double kLearned = 0.6;  // of each surprise
     constexpr double kMost = 1.4;     // 4 times
     const auto i = static_cast<std::size_t>(method);
@@ -50,9 +53,10 @@ void CostCorrection::observe(Method method, double predicted_seconds, double act
     }
     if (!(predicted_seconds > 0) || !(actual_seconds > 0)) return;
     const double seen = std::clamp(std::log(actual_seconds / predicted_seconds), -kMost, kMost);
-    const double surprise = seen - pace_ - model_[i];
-    pace_ += 0.5 * kLearned * surprise;
-    model_[i] += 0.5 * kLearned * surprise;
+    const double learned = kLearned * std::min(1.0, predicted_seconds / matters);
+    const double surprise = learned * (seen - pace_ - model_[i]);
+    pace_ += 0.5 * surprise;
+    model_[i] += 0.5 * surprise;
 }
 
 MethodChoice::MethodChoice(fourier::Convolver& convolver, SpritePainter& painter, Hybrid& hybrid,
@@ -69,12 +73,13 @@ MethodChoice::MethodChoice(fourier::Convolver& convolver, SpritePainter& painter
     near_speed_ = drawing_speed(painter.near(), channels);
     seconds_per_edge_pixel_ =
         kSpritesPerEdgePixel *
-        near_speed_.seconds(typical_work(painter.near(), std::sqrt(painter.typical_area() / kPi)));
+        near_speed_.seconds(
+            typical_work(painter.near(), std::sqrt(painter.typical_area() / kPi), kBetweenPixels));
     const auto far_speed = [&](FarLayer* far, DrawingSpeed& speed) {
         if (far == nullptr) return 0.0;
         speed = drawing_speed(far->layer(), channels);
         return kFarSpritesPerBlock *
-               speed.seconds(typical_work(far->layer(), far->layer().profile().end()));
+               speed.seconds(typical_work(far->layer(), far->layer().profile().end(), 1));
     };
     far_seconds_per_block_ = far_speed(painter.far(), far_speed_);
     hybrid_seconds_per_block_ = far_speed(hybrid.far(), hybrid_far_speed_);
@@ -82,10 +87,9 @@ MethodChoice::MethodChoice(fourier::Convolver& convolver, SpritePainter& painter
 
 double MethodChoice::sprites_seconds(const BrightArea& area) const {
     const bool far = painter_.has_far();
-    const double lit = std::min(pixels_, area.blocks * static_cast<double>(SpriteTiles::kPlane));
     const double side = 2 * painter_.core_radius() + 1;
     const double passes =
-        speed_.pass * pixels_ + speed_.lit * lit + (far ? speed_.far * pixels_ : 0) +
+        speed_.pass * pixels_ + speed_.lit * lit_pixels_ + (far ? speed_.far * pixels_ : 0) +
         speed_.core * area.pixels * side * side + speed_.search * area.edge_pixels;
     return channel_share_ * passes + seconds_per_edge_pixel_ * area.edge_pixels +
            far_seconds_per_block_ * area.blocks;
@@ -122,6 +126,7 @@ void MethodChoice::estimate(const BrightArea& sprites, const BrightArea& hybrid)
 
 // At least one pixel in each block whose largest value is above what the limit is at most.
 void MethodChoice::estimate_from_blocks() {
+    lit_pixels_ = painter_.lit_pixels(histogram_, painter_.dim_limit(histogram_));
     const auto area = [&](const auto& method) {
         const double blocks = histogram_.pixels_above(method.dim_limit(histogram_));
         return BrightArea{blocks, blocks, blocks};
@@ -136,6 +141,7 @@ void MethodChoice::estimate_from_pixels(const ConstImageView& light, int block_s
     const bool sprites = sprites_left_ < enough_;
     const bool hybrid = hybrid_left_ < enough_;
     if (sprites) {
+        lit_pixels_ = painter_.lit_pixels(histogram_, painter_.dim_limit(histogram_));
         sprites_area_ = bright_area(light, histogram_, painter_.dim_limit(histogram_), block_step);
     }
     if (hybrid) {
@@ -173,6 +179,7 @@ void MethodChoice::choose(const ConstImageView& light, const float* weights, Met
     consider(Method::kFft, fft_seconds_, report);
     if (!hybrid_.has_far()) consider(Method::kHybrid, hybrid_fft_seconds_, report);
     sprites_left_ = 0;
+    lit_pixels_ = 0;
     hybrid_left_ = hybrid_.has_far() ? 0 : kNever;
     const auto hopeless = [&] { return std::min(sprites_left_, hybrid_left_) >= enough_; };
     estimate({}, {});
@@ -226,7 +233,7 @@ void MethodChoice::plan_hybrid(const ConstImageView& light, const float* weights
 }
 
 void MethodChoice::observe(double seconds) {
-    correction_.observe(chosen_, chosen_model_seconds_, seconds);
+    correction_.observe(chosen_, chosen_model_seconds_, seconds, fft_seconds_);
 }
 
 }  // namespace aureole::glare

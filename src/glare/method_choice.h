@@ -25,8 +25,10 @@ class CostCorrection {
   public:
     // Factor for what was predicted.
     double of(Method method) const;
-    // Predicted without correction. The first run of each method is left out: it warms up.
-    void observe(Method method, double predicted_seconds, double actual_seconds);
+    // Predicted without correction. `matters`: seconds from which on a surprise counts in full; a
+    // picture that costs little tells little about one that costs much. The first run of each
+    // method is left out: it warms up.
+    void observe(Method method, double predicted_seconds, double actual_seconds, double matters);
 
   private:
     static constexpr std::size_t kMethods = 4;  // by Method, kHybrid being the last
@@ -97,6 +99,7 @@ class MethodChoice {
     double enough_ = 0;
     double sprites_left_ = 0;
     double hybrid_left_ = 0;
+    double lit_pixels_ = 0;
     sources::BrightArea sprites_area_;
     sources::BrightArea hybrid_area_;
     double start_ = 0;

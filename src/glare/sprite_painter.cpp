@@ -67,11 +67,22 @@ float SpritePainter::dim_limit(const sources::BrightnessHistogram& histogram) co
     return options_.clusters.criterion == Criterion::kBoundedError ? limit / 2 : limit;
 }
 
-bool SpritePainter::light_near(const SpriteTile& tile,
-                               const sources::BrightnessHistogram& measured) const {
+bool SpritePainter::light_near(const SpriteTile& tile, const sources::BrightnessHistogram& measured,
+                               float limit) const {
     const int reach = core_radius_;
-    return measured.may_be_above(dim_limit_, tile.x - reach, tile.y - reach,
-                                 tile.x + tile.width + reach, tile.y + tile.height + reach);
+    return measured.may_be_above(limit, tile.x - reach, tile.y - reach, tile.x + tile.width + reach,
+                                 tile.y + tile.height + reach);
+}
+
+double SpritePainter::lit_pixels(const sources::BrightnessHistogram& measured, float limit) const {
+    double pixels = 0;
+    for (std::size_t i = 0; i < near_->tiles().size(); ++i) {
+        const SpriteTile tile = near_->tiles().tile(i);
+        if (light_near(tile, measured, limit)) {
+            pixels += static_cast<double>(tile.width) * tile.height;
+        }
+    }
+    return pixels;
 }
 
 SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float* weights,
@@ -110,12 +121,7 @@ SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float
         plan.far = distant.work;
     }
     report.pixels_drawn = plan.near.pixels() + plan.far.pixels();
-    for (std::size_t i = 0; i < near_->tiles().size(); ++i) {
-        const SpriteTile tile = near_->tiles().tile(i);
-        if (light_near(tile, measured)) {
-            plan.lit_pixels += static_cast<double>(tile.width) * tile.height;
-        }
-    }
+    plan.lit_pixels = lit_pixels(measured, dim_limit_);
     const double side = 2 * core_radius_ + 1;
     plan.core_pixels = static_cast<double>(report.bright_pixels) * side * side;
     return plan;
@@ -134,7 +140,7 @@ void SpritePainter::draw_tile(const ConstImageView& light, const ImageView& out,
                               const float* weights, const sources::BrightnessHistogram& measured,
                               std::size_t index, float* planes) const {
     SpriteTile tile = near_->tiles().tile(index);
-    const bool bright = light_near(tile, measured);
+    const bool bright = light_near(tile, measured, dim_limit_);
     // planes[0] stays null where nothing is drawn.
     if (bright || far_ || near_->tiles().count(index) > 0) {
         tile = near_->tiles().cleared_tile(index, channels_, planes);

@@ -39,7 +39,7 @@ class SpritePainter {
         SpriteWork near;
         SpriteWork far;
         double core_pixels = 0;
-        double lit_pixels = 0;  // of tiles with light in or around them
+        double lit_pixels = 0;
     };
     // `measured`: all of the light.
     Plan plan(const ConstImageView& light, const float* weights,
@@ -47,6 +47,9 @@ class SpritePainter {
     // What was planned for the same light.
     void draw(const ConstImageView& light, const ImageView& out, const float* weights,
               const sources::BrightnessHistogram& measured);
+
+    // Pixels of tiles with something above the limit in them, or so near that its core reaches in.
+    double lit_pixels(const sources::BrightnessHistogram& measured, float limit) const;
 
     bool has_far() const { return far_.has_value(); }
     SpriteLayer& near() { return *near_; }
@@ -64,7 +67,8 @@ class SpritePainter {
                     const SpriteTile& tile, int y, bool bright) const;
     void draw_cores(const ConstImageView& light, const float* weights,
                     const SpriteTile& tile) const;
-    bool light_near(const SpriteTile& tile, const sources::BrightnessHistogram& measured) const;
+    bool light_near(const SpriteTile& tile, const sources::BrightnessHistogram& measured,
+                    float limit) const;
     Sprite core_sprite(const ConstImageView& light, int x, int y, float weight) const;
     std::size_t pixel(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
