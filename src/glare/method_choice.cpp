@@ -18,6 +18,8 @@ constexpr double kWorthIt = 0.95;
 // From so many blocks on, one of kSampleStep is looked at before all of them are.
 constexpr std::size_t kManyBlocks = 400;
 constexpr int kSampleStep = 8;
+// Of what transforms cost: by how much predictions may be wrong before they are corrected.
+constexpr double kSurprise = 0.1;
 // Sprites for each edge pixel of even lights, and far ones for each block with light, as long as no
 // picture has told.
 constexpr double kSpritesPerEdgePixel = 0.7;
@@ -51,10 +53,9 @@ void CostCorrection::observe(Method method, double predicted_seconds, double act
         warm_[i] = true;
         return;
     }
-    if (!(predicted_seconds > 0) || !(actual_seconds > 0)) return;
+    if (std::abs(actual_seconds - of(method) * predicted_seconds) < matters) return;
     const double seen = std::clamp(std::log(actual_seconds / predicted_seconds), -kMost, kMost);
-    const double learned = kLearned * std::min(1.0, predicted_seconds / matters);
-    const double surprise = learned * (seen - pace_ - model_[i]);
+    const double surprise = kLearned * (seen - pace_ - model_[i]);
     pace_ += 0.5 * surprise;
     model_[i] += 0.5 * surprise;
 }
@@ -233,7 +234,7 @@ void MethodChoice::plan_hybrid(const ConstImageView& light, const float* weights
 }
 
 void MethodChoice::observe(double seconds) {
-    correction_.observe(chosen_, chosen_model_seconds_, seconds, fft_seconds_);
+    correction_.observe(chosen_, chosen_model_seconds_, seconds, kSurprise * fft_seconds_);
 }
 
 }  // namespace aureole::glare

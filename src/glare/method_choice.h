@@ -25,9 +25,9 @@ class CostCorrection {
   public:
     // Factor for what was predicted.
     double of(Method method) const;
-    // Predicted without correction. `matters`: seconds from which on a surprise counts in full; a
-    // picture that costs little tells little about one that costs much. The first run of each
-    // method is left out: it warms up.
+    // Predicted without correction. Surprises below `matters` seconds are none: a picture that
+    // costs little tells little about one that costs much. The first run of each method is left
+    // out: it warms up.
     void observe(Method method, double predicted_seconds, double actual_seconds, double matters);
 
   private:

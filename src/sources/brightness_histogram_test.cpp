@@ -102,7 +102,7 @@ Image lights(int width, int height) {
     for (int c = 0; c < 3; ++c) {
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
-                image.at(x, y, c) *= x < width / 2 ? 1e-6F : (y < height / 2 ? 1e-3F : 1.0F);
+                image.at(x, y, c) *= x < width / 2 ? 1e-9F : (y < height / 2 ? 1e-3F : 1.0F);
             }
         }
     }
