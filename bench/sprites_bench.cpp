@@ -260,8 +260,8 @@ void summarize(const std::vector<Trial::Result>& results) {
         }
         first = std::max(first, r.ms(3) / r.best());
         next = std::max(next, r.ms(4) / r.best());
-        const auto [least, most] = std::minmax(r.ms(Trial::kFft), r.ms(Trial::kSprites));
-        if (most < 1.2 * least) continue;
+        const double least = std::min(r.ms(Trial::kFft), r.ms(Trial::kSprites));
+        if (std::max(r.ms(Trial::kFft), r.ms(Trial::kSprites)) < 1.2 * least) continue;
         ++differ;
         for (int m = 0; m < 3; ++m) {
             const bool chosen =

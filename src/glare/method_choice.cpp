@@ -18,6 +18,8 @@ constexpr double kWorthIt = 0.95;
 // From so many blocks on, one of kSampleStep is looked at before all of them are.
 constexpr std::size_t kManyBlocks = 400;
 constexpr int kSampleStep = 8;
+// Estimates may be wrong by that: looking on costs less than missing the faster method.
+constexpr double kDoubt = 1.05;
 // Of what transforms cost: by how much predictions may be wrong before they are corrected.
 constexpr double kSurprise = 0.1;
 // Sprites for each edge pixel of even lights, and far ones for each block with light, as long as no
@@ -116,11 +118,13 @@ double MethodChoice::planned_hybrid_seconds() const {
            hybrid_far_speed_.seconds(hybrid_plan_.work);
 }
 
+bool MethodChoice::may_win(double seconds) const { return seconds < kDoubt * enough_; }
+
 void MethodChoice::estimate(const BrightArea& sprites, const BrightArea& hybrid) {
-    if (sprites_left_ < enough_) {
+    if (may_win(sprites_left_)) {
         sprites_left_ = correction_.of(Method::kSprites) * sprites_seconds(sprites);
     }
-    if (hybrid_left_ < enough_) {
+    if (may_win(hybrid_left_)) {
         hybrid_left_ = correction_.of(Method::kHybrid) * hybrid_seconds(hybrid);
     }
 }
@@ -132,15 +136,15 @@ void MethodChoice::estimate_from_blocks() {
         const double blocks = histogram_.pixels_above(method.dim_limit(histogram_));
         return BrightArea{blocks, blocks, blocks};
     };
-    estimate(area(painter_), hybrid_left_ < enough_ ? area(hybrid_) : BrightArea{});
+    estimate(area(painter_), may_win(hybrid_left_) ? area(hybrid_) : BrightArea{});
 }
 
 void MethodChoice::estimate_from_pixels(const ConstImageView& light, int block_step,
                                         MethodReport& report) {
     sprites_area_ = {};
     hybrid_area_ = {};
-    const bool sprites = sprites_left_ < enough_;
-    const bool hybrid = hybrid_left_ < enough_;
+    const bool sprites = may_win(sprites_left_);
+    const bool hybrid = may_win(hybrid_left_);
     if (sprites) {
         lit_pixels_ = painter_.lit_pixels(histogram_, painter_.dim_limit(histogram_));
         sprites_area_ = bright_area(light, histogram_, painter_.dim_limit(histogram_), block_step);
@@ -156,8 +160,8 @@ void MethodChoice::estimate_from_pixels(const ConstImageView& light, int block_s
 
 // Of those of the methods that may still be the fastest.
 double MethodChoice::least_share() const {
-    const double sprites = sprites_left_ < enough_ ? painter_.dim_share() : 1.0;
-    return hybrid_left_ < enough_ ? std::min(sprites, hybrid_.dim_share()) : sprites;
+    const double sprites = may_win(sprites_left_) ? painter_.dim_share() : 1.0;
+    return may_win(hybrid_left_) ? std::min(sprites, hybrid_.dim_share()) : sprites;
 }
 
 void MethodChoice::consider(Method method, double model_seconds, MethodReport& report) {
@@ -182,7 +186,7 @@ void MethodChoice::choose(const ConstImageView& light, const float* weights, Met
     sprites_left_ = 0;
     lit_pixels_ = 0;
     hybrid_left_ = hybrid_.has_far() ? 0 : kNever;
-    const auto hopeless = [&] { return std::min(sprites_left_, hybrid_left_) >= enough_; };
+    const auto hopeless = [&] { return !may_win(sprites_left_) && !may_win(hybrid_left_); };
     estimate({}, {});
     if (hopeless()) return;
     report.reason = Reason::kBlocks;
@@ -212,7 +216,7 @@ void MethodChoice::choose(const ConstImageView& light, const float* weights, Met
 
 void MethodChoice::plan_sprites(const ConstImageView& light, const float* weights,
                                 MethodReport& report) {
-    if (sprites_left_ >= enough_) return;
+    if (!may_win(sprites_left_)) return;
     sprites_plan_ = painter_.plan(light, weights, histogram_);
     if (sprites_area_.edge_pixels > 0) {
         seconds_per_edge_pixel_ =
@@ -224,7 +228,7 @@ void MethodChoice::plan_sprites(const ConstImageView& light, const float* weight
 
 void MethodChoice::plan_hybrid(const ConstImageView& light, const float* weights,
                                MethodReport& report) {
-    if (hybrid_left_ >= enough_) return;
+    if (!may_win(hybrid_left_)) return;
     hybrid_plan_ = hybrid_.plan(light, weights, histogram_);
     if (hybrid_area_.blocks > 0) {
         hybrid_seconds_per_block_ =

@@ -59,6 +59,7 @@ class MethodChoice {
     double planned_sprites_seconds() const;
     double planned_hybrid_seconds() const;
 
+    bool may_win(double estimated_seconds) const;
     // What sprites, and a hybrid with a far part, will take, from what is known of the light.
     // Methods that are ruled out stay so.
     void estimate(const sources::BrightArea& sprites, const sources::BrightArea& hybrid);

@@ -14,7 +14,7 @@ namespace {
 
 using Criterion = sources::ClusterOptions::Criterion;
 
-constexpr int kCoreRadius = 8;
+constexpr int kCoreRadius = 12;
 constexpr int kLargestCellKernel = 1025;
 constexpr ErrorShares kShares;
 
