@@ -329,7 +329,7 @@ double relative_error(const Image& a, const Image& b, const Image& light) {
     return difference / energy;
 }
 
-void hybrid(int width, int height) {
+void hybrid(const Table& table, int width, int height) {
     const View view = view_of(width, height);
     const wave::Psf psf = psf_of(view, 2 * width - 1, 2 * height - 1);
     glare::Glare fft(view, 3, psf);
@@ -350,11 +350,13 @@ void hybrid(int width, int height) {
     }
     const double a = median(fft_ms);
     const double b = median(hybrid_ms);
+    const double error = relative_error(out, exact, light);
+    table.add("hybrid", {fmt::format("{}", height), fmt::format("{:.2f}", a),
+                         fmt::format("{:.2f}", b), fmt::format("{:.6f}", error)});
     fmt::print(
         "{}x{}, full-screen kernel, 8 lights: fft {:.1f} ms, hybrid {:.1f} ms ({:.2f} x), "
         "error {:.5f}, bound {:.5f}, {} sprites\n",
-        width, height, a, b, a / b, relative_error(out, exact, light), both.last().error_bound,
-        both.last().sprites);
+        width, height, a, b, a / b, error, both.last().error_bound, both.last().sprites);
 }
 
 }  // namespace
@@ -381,7 +383,7 @@ int main(int argc, char** argv) {
     } else if (words[0] == "auto") {
         compare(table, "auto", width, height, words[2], twelve_pictures());
     } else if (words[0] == "hybrid") {
-        hybrid(width, height);
+        hybrid(table, width, height);
     } else {
         fmt::print(stderr,
                    "usage: sprites_bench figure9 | crossover|auto|hybrid [1080|2160] "

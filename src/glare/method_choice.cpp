@@ -18,14 +18,14 @@ constexpr double kWorthIt = 0.95;
 // From so many blocks on, one of kSampleStep is looked at before all of them are.
 constexpr std::size_t kManyBlocks = 400;
 constexpr int kSampleStep = 8;
-// Estimates may be wrong by that: looking on costs less than missing the faster method.
-constexpr double kDoubt = 1.05;
 // Of what transforms cost: by how much predictions may be wrong before they are corrected.
 constexpr double kSurprise = 0.1;
 // Sprites for each edge pixel of even lights, and far ones for each block with light, as long as no
 // picture has told.
 constexpr double kSpritesPerEdgePixel = 0.7;
 constexpr double kFarSpritesPerBlock = 0.8;
+// Times the search of a block: trees of far clusters are two levels deeper.
+constexpr double kFarSearch = 2;
 // Of sprites, the others being single pixels and cells.
 constexpr double kBetweenPixels = 0.5;
 
@@ -108,7 +108,7 @@ double MethodChoice::planned_sprites_seconds() const {
 
 double MethodChoice::hybrid_seconds(const BrightArea& area) const {
     return hybrid_fft_seconds_ +
-           channel_share_ * (speed_.far * pixels_ + speed_.search * area.blocks) +
+           channel_share_ * (speed_.far * pixels_ + kFarSearch * speed_.search * area.blocks) +
            hybrid_seconds_per_block_ * area.blocks;
 }
 
@@ -118,7 +118,7 @@ double MethodChoice::planned_hybrid_seconds() const {
            hybrid_far_speed_.seconds(hybrid_plan_.work);
 }
 
-bool MethodChoice::may_win(double seconds) const { return seconds < kDoubt * enough_; }
+bool MethodChoice::may_win(double seconds) const { return seconds < enough_; }
 
 void MethodChoice::estimate(const BrightArea& sprites, const BrightArea& hybrid) {
     if (may_win(sprites_left_)) {
