@@ -9,6 +9,7 @@
 #include "aureole/base/error.h"
 #include "aureole/base/random.h"
 #include "aureole/sources/bright_area.h"
+#include "aureole/sources/brightness.h"
 
 namespace aureole::sources {
 namespace {
@@ -173,6 +174,23 @@ TEST(BrightnessHistogram, DoesNotDependOnTheOrderInMemory) {
     b.measure(interleaved, nullptr);
     EXPECT_NEAR(b.energy() / a.energy(), 1, 1e-6);
     for (const double share : {0.001, 0.3}) EXPECT_EQ(a.dim_limit(share), b.dim_limit(share));
+}
+
+TEST(BrightShare, RisesSmoothlyFromNothingToAll) {
+    EXPECT_EQ(bright_share(1, 1, 2), 0);
+    EXPECT_EQ(bright_share(2, 1, 2), 1);
+    EXPECT_EQ(bright_share(1.5F, 1, 2), 0.5F);
+    constexpr int kSteps = 1000;
+    float before = 0;
+    for (int i = 0; i <= 3 * kSteps; ++i) {
+        const float share = bright_share(static_cast<float>(i) / kSteps, 1, 2);
+        EXPECT_GE(share, before);
+        EXPECT_LE(share - before, 1.6F / kSteps);
+        before = share;
+    }
+    // Without a range it is a step above the limit.
+    EXPECT_EQ(bright_share(1, 1, 0), 0);
+    EXPECT_EQ(bright_share(1.001F, 1, 0), 1);
 }
 
 TEST(BrightArea, CountsBlocksPixelsAndEdges) {
