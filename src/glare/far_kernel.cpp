@@ -6,16 +6,19 @@
 #include <vector>
 
 #include "aureole/base/parallel.h"
+#include "glare/raster_kernel.h"
 
 namespace aureole::glare {
 namespace {
 
-// In rising order of the cost of a sprite.
 struct Candidate {
     int scale;
     int near_radius;
 };
-constexpr Candidate kCandidates[] = {{8, 256}, {4, 256}, {8, 512}, {4, 512}, {2, 256}, {2, 512}};
+// In rising order of the cost of a sprite.
+constexpr Candidate kForSprites[] = {{8, 256}, {4, 256}, {8, 512}, {4, 512}, {2, 256}, {2, 512}};
+// In rising order of the cost of transforms of the near part.
+constexpr int kNearRadii[] = {64, 128, 256, 512};
 // Unless far is that much larger, there is little to save.
 constexpr int kLeastRatio = 2;
 constexpr int kPlacesPerSide = 2;
@@ -23,14 +26,6 @@ constexpr int kPlacesPerSide = 2;
 double far_share(double distance, int near_radius) {
     const double t = std::clamp(2 * distance / near_radius - 1, 0.0, 1.0);
     return t * t * (3 - 2 * t);
-}
-
-// far at a whole displacement from the source; 0 beyond the kernel.
-double far_at(const ConstImageView& kernel, int c, int dx, int dy, int near_radius) {
-    const int x = kernel.width / 2 + dx;
-    const int y = kernel.height / 2 + dy;
-    if (x < 0 || y < 0 || x >= kernel.width || y >= kernel.height) return 0;
-    return far_share(std::hypot(dx, dy), near_radius) * static_cast<double>(kernel.at(x, y, c));
 }
 
 Image far_image(const ConstImageView& kernel, int near_radius) {
@@ -66,22 +61,6 @@ Image near_image(const ConstImageView& kernel, int near_radius) {
         }
     }
     return near;
-}
-
-Image coarse_image(const ConstImageView& kernel, const Candidate& split) {
-    const int half_x = kernel.width / 2 / split.scale;
-    const int half_y = kernel.height / 2 / split.scale;
-    Image coarse(2 * half_x + 1, 2 * half_y + 1, kernel.channels);
-    for (int c = 0; c < kernel.channels; ++c) {
-        for (int y = 0; y < coarse.height(); ++y) {
-            for (int x = 0; x < coarse.width(); ++x) {
-                coarse.at(x, y, c) =
-                    static_cast<float>(far_at(kernel, c, (x - half_x) * split.scale,
-                                              (y - half_y) * split.scale, split.near_radius));
-            }
-        }
-    }
-    return coarse;
 }
 
 // One axis of the bilinear kernel on the coarse raster: which coarse displacements stand for the
@@ -165,28 +144,36 @@ double worst_error(const Image& far, const Image& coarse, int scale, double enou
     return worst;
 }
 
-}  // namespace
-
-Between coarse_place(int x, int scale) {
-    const double t = (x + 0.5) / scale - 0.5;
-    const double node = std::floor(t);
-    return {static_cast<int>(node), static_cast<float>(t - node)};
+// If its error is small enough, and far large enough.
+std::optional<FarKernel> split_at(const ConstImageView& kernel, const Candidate& candidate,
+                                  double most_error) {
+    const int radius = std::min(kernel.width, kernel.height) / 2;
+    if (radius < kLeastRatio * candidate.near_radius) return std::nullopt;
+    const Image far = far_image(kernel, candidate.near_radius);
+    FarKernel split;
+    split.coarse = raster_kernel(far, candidate.scale);
+    split.error = worst_error(far, split.coarse, candidate.scale, most_error);
+    if (split.error > most_error) return std::nullopt;
+    split.scale = candidate.scale;
+    split.near_radius = candidate.near_radius;
+    split.near = near_image(kernel, candidate.near_radius);
+    split.roughness = sources::roughness_of(far);
+    return split;
 }
 
+}  // namespace
+
 std::optional<FarKernel> find_far_kernel(const ConstImageView& kernel, double most_error) {
-    for (const Candidate& candidate : kCandidates) {
-        const int radius = std::min(kernel.width, kernel.height) / 2;
-        if (radius < kLeastRatio * candidate.near_radius) continue;
-        const Image far = far_image(kernel, candidate.near_radius);
-        FarKernel split;
-        split.coarse = coarse_image(kernel, candidate);
-        split.error = worst_error(far, split.coarse, candidate.scale, most_error);
-        if (split.error > most_error) continue;
-        split.scale = candidate.scale;
-        split.near_radius = candidate.near_radius;
-        split.near = near_image(kernel, candidate.near_radius);
-        split.roughness = sources::roughness_of(far);
-        return split;
+    for (const Candidate& candidate : kForSprites) {
+        if (auto split = split_at(kernel, candidate, most_error)) return split;
+    }
+    return std::nullopt;
+}
+
+std::optional<FarKernel> find_far_kernel(const ConstImageView& kernel, int scale,
+                                         double most_error) {
+    for (const int near_radius : kNearRadii) {
+        if (auto split = split_at(kernel, {scale, near_radius}, most_error)) return split;
     }
     return std::nullopt;
 }

@@ -5,6 +5,7 @@
 
 #include "aureole/base/parallel.h"
 #include "glare/sprite_painter.h"
+#include "glare/two_scale_convolver.h"
 
 namespace aureole::glare {
 namespace {
@@ -17,12 +18,6 @@ constexpr double kShareOfClusters = 1 - kShareOfFarRaster - kShareOfDimLight - k
 
 double padded_pixels(const fourier::Convolver& convolver) {
     return static_cast<double>(convolver.padded_width()) * convolver.padded_height();
-}
-
-// What a kernel of this reach needs, before sizes are rounded.
-double needed_pixels(int width, int height, const ConstImageView& kernel) {
-    return (width + static_cast<double>(std::min(kernel.width / 2, width - 1))) *
-           (height + static_cast<double>(std::min(kernel.height / 2, height - 1)));
 }
 
 }  // namespace
@@ -103,25 +98,7 @@ void Hybrid::add_far(const ImageView& out, const float* weights) noexcept {
         const SpriteTile tile =
             tiles_.cleared_tile(i, channels_, scratch_[static_cast<std::size_t>(worker)].data());
         far_->add_to(tile);
-        for (int y = 0; y < tile.height; ++y) {
-            const float* weight =
-                weights == nullptr
-                    ? nullptr
-                    : weights + static_cast<std::ptrdiff_t>(tile.y + y) * out.width + tile.x;
-            for (int c = 0; c < channels_; ++c) {
-                float* row = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
-                float* to = &out.at(tile.x, tile.y + y, c);
-                if (weight != nullptr) {
-                    for (int x = 0; x < tile.width; ++x) row[x] /= weight[x];
-                }
-                // A stride of 1 that the compiler knows of becomes vectors.
-                if (out.pixel_stride == 1) {
-                    for (int x = 0; x < tile.width; ++x) to[x] += row[x];
-                } else {
-                    for (int x = 0; x < tile.width; ++x) to[x * out.pixel_stride] += row[x];
-                }
-            }
-        }
+        add_to_picture(tile, weights, out);
     });
 }
 
