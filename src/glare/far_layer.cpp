@@ -65,4 +65,8 @@ void FarLayer::draw() {
 
 void FarLayer::add_to(const SpriteTile& tile) const { add_between(canvas_, scale_, tile); }
 
+void FarLayer::add_to(const ImageView& out, const float* weights) const noexcept {
+    add_between(canvas_, scale_, weights, out);
+}
+
 }  // namespace aureole::glare

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "aureole/base/parallel.h"
 #include "glare/sprite_painter.h"
 #include "glare/two_scale_convolver.h"
 
@@ -41,7 +40,7 @@ ConstImageView cropped(const ConstImageView& kernel, int radius) {
 
 Hybrid::Hybrid(int width, int height, int channels, const ConstImageView& kernel, double error,
                const FarKernel* split)
-    : error_(error), tiles_(width, height), channels_(channels) {
+    : error_(error) {
     const Crop crop = crop_of(kernel, error);
     ConstImageView near = cropped(kernel, crop.radius);
     // Even sizes have no middle that a crop could keep.
@@ -50,8 +49,6 @@ Hybrid::Hybrid(int width, int height, int channels, const ConstImageView& kernel
         needed_pixels(width, height, split->near) < needed_pixels(width, height, near)) {
         near = split->near;
         far_.emplace(width, height, channels, *split);
-        scratch_.resize(static_cast<std::size_t>(max_workers()));
-        for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
     } else if (near.width < kernel.width || near.height < kernel.height) {
         lost_ = crop.lost;
     }
@@ -89,17 +86,9 @@ Hybrid::Plan Hybrid::plan(const ConstImageView& light, const float* weights,
 void Hybrid::draw(const ConstImageView& light, const ImageView& out,
                   const float* weights) noexcept {
     convolver_->run(light, out, weights);
-    if (far_ && planned_ > 0) add_far(out, weights);
-}
-
-void Hybrid::add_far(const ImageView& out, const float* weights) noexcept {
+    if (!far_ || planned_ == 0) return;
     far_->draw();
-    parallel_for(tiles_.size(), [&](std::size_t i, int worker) {
-        const SpriteTile tile =
-            tiles_.cleared_tile(i, channels_, scratch_[static_cast<std::size_t>(worker)].data());
-        far_->add_to(tile);
-        add_to_picture(tile, weights, out);
-    });
+    far_->add_to(out, weights);
 }
 
 }  // namespace aureole::glare

@@ -10,22 +10,51 @@
 namespace aureole::glare {
 namespace {
 
-// Adds `count` pixels from `x0` on, a multiple of the scale. nodes[j] is node j + x0 / kScale - 1.
+// Pixels of a row that are interpolated at a time, and what that needs.
+using Nodes = std::array<float, SpriteTiles::kWidth / 2 + 2 * kLargestScale>;
+using Line = std::array<float, SpriteTiles::kWidth + 2 * kLargestScale>;
+
+// Whole spans between nodes, of which the first begins half a node before pixel x0, a multiple of
+// the scale: pixel x0 + i is line[i + kScale / 2]. nodes[j] is node j + x0 / kScale - 1.
 template <int kScale>
-void add_row_between(const float* nodes, int count, float* to) {
+void spans_between(const Nodes& nodes, int count, Line& line) {
     static_assert(kScale <= kLargestScale);
-    // Whole spans between nodes, which begin half a coarse pixel before the tile.
-    std::array<float, SpriteTiles::kWidth + 2 * kLargestScale> line;
     const int spans = (count + kScale - 1) / kScale + 1;
     for (int j = 0; j < spans; ++j) {
-        const float step = nodes[j + 1] - nodes[j];
+        const auto node = static_cast<std::size_t>(j);
+        const float step = nodes[node + 1] - nodes[node];
         for (int i = 0; i < kScale; ++i) {
             constexpr float kPixel = 1.0F / kScale;
             line[static_cast<std::size_t>(j * kScale + i)] =
-                nodes[j] + (static_cast<float>(i) + 0.5F) * kPixel * step;
+                nodes[node] + (static_cast<float>(i) + 0.5F) * kPixel * step;
         }
     }
-    for (int x = 0; x < count; ++x) to[x] += line[static_cast<std::size_t>(x + kScale / 2)];
+}
+
+// The raster at pixels [x0, x0 + count) of row y; the first is where the result points to.
+const float* row_between(const Image& raster, int scale, int x0, int y, int c, int count,
+                         Line& line) {
+    Nodes nodes;
+    const Between row = raster_place(y, scale);
+    const int first = x0 / scale - 1 + kRasterMargin;
+    const float* above = raster.row(row.node + kRasterMargin, c) + first;
+    const float* below = raster.row(row.node + kRasterMargin + 1, c) + first;
+    const int needed = std::min((count + scale - 1) / scale + 2, raster.width() - first);
+    for (int i = 0; i < needed; ++i) {
+        nodes[static_cast<std::size_t>(i)] = above[i] + row.right * (below[i] - above[i]);
+    }
+    switch (scale) {
+        case 2:
+            spans_between<2>(nodes, count, line);
+            break;
+        case 4:
+            spans_between<4>(nodes, count, line);
+            break;
+        default:
+            spans_between<8>(nodes, count, line);
+            break;
+    }
+    return line.data() + scale / 2;
 }
 
 // sum[x] += factor in(x, y, c) weights[x]
@@ -66,31 +95,44 @@ Between raster_place(int x, int scale) {
 }
 
 void add_between(const Image& raster, int scale, const SpriteTile& tile) {
-    std::array<float, SpriteTiles::kWidth / 2 + 2 * kLargestScale> nodes;
-    const int first = tile.x / scale - 1 + kRasterMargin;
-    const int count = std::min((tile.width + scale - 1) / scale + 2, raster.width() - first);
+    Line line;
     for (int y = 0; y < tile.height; ++y) {
-        const Between row = raster_place(tile.y + y, scale);
         for (int c = 0; c < tile.channels; ++c) {
-            const float* above = raster.row(row.node + kRasterMargin, c) + first;
-            const float* below = raster.row(row.node + kRasterMargin + 1, c) + first;
-            for (int i = 0; i < count; ++i) {
-                nodes[static_cast<std::size_t>(i)] = above[i] + row.right * (below[i] - above[i]);
-            }
+            const float* from =
+                row_between(raster, scale, tile.x, tile.y + y, c, tile.width, line);
             float* to = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
-            switch (scale) {
-                case 2:
-                    add_row_between<2>(nodes.data(), tile.width, to);
-                    break;
-                case 4:
-                    add_row_between<4>(nodes.data(), tile.width, to);
-                    break;
-                default:
-                    add_row_between<8>(nodes.data(), tile.width, to);
-                    break;
-            }
+            for (int x = 0; x < tile.width; ++x) to[x] += from[x];
         }
     }
+}
+
+void add_between(const Image& raster, int scale, const float* weights,
+                 const ImageView& out) noexcept {
+    parallel_for(static_cast<std::size_t>(out.height), [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
+        Line line;
+        for (int c = 0; c < out.channels; ++c) {
+            for (int x0 = 0; x0 < out.width; x0 += SpriteTiles::kWidth) {
+                const int count = std::min(SpriteTiles::kWidth, out.width - x0);
+                const float* from = row_between(raster, scale, x0, y, c, count, line);
+                float* to = &out.at(x0, y, c);
+                // A stride of 1 that the compiler knows of becomes vectors.
+                if (weights == nullptr && out.pixel_stride == 1) {
+                    for (int x = 0; x < count; ++x) to[x] += from[x];
+                    continue;
+                }
+                const float* weight =
+                    weights == nullptr ? nullptr : weights + std::ptrdiff_t{y} * out.width + x0;
+                if (out.pixel_stride == 1) {
+                    for (int x = 0; x < count; ++x) to[x] += from[x] / weight[x];
+                    continue;
+                }
+                for (int x = 0; x < count; ++x) {
+                    to[x * out.pixel_stride] += from[x] / (weight == nullptr ? 1.0F : weight[x]);
+                }
+            }
+        }
+    });
 }
 
 RasterGatherer::RasterGatherer(int width, int scale)

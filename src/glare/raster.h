@@ -34,6 +34,9 @@ Between raster_place(int x, int scale);
 // Adds `raster`, margins included, between its nodes to a tile of the picture; as many channels as
 // the tile has. `scale` 2, 4 or 8.
 void add_between(const Image& raster, int scale, const SpriteTile& tile);
+// To a whole picture, over its weights (null, or width * height factors).
+void add_between(const Image& raster, int scale, const float* weights,
+                 const ImageView& out) noexcept;
 
 class RasterGatherer {
   public:

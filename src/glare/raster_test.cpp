@@ -24,13 +24,7 @@ Image gathered(const Image& picture, int scale, const float* weights = nullptr) 
 
 Image between(const Image& raster, int scale) {
     Image picture(kWidth, kHeight, raster.channels());
-    const SpriteTiles tiles(kWidth, kHeight);
-    std::vector<float> scratch(3 * SpriteTiles::kPlane);
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const SpriteTile tile = tiles.cleared_tile(i, raster.channels(), scratch.data());
-        add_between(raster, scale, tile);
-        add_to_picture(tile, nullptr, picture);
-    }
+    add_between(raster, scale, nullptr, picture);
     return picture;
 }
 
@@ -97,6 +91,25 @@ TEST(Raster, GathersWeightedPixels) {
     const Image a = gathered(picture, 4, weights.plane(0));
     const Image b = gathered(weighted, 4);
     for (std::size_t i = 0; i < a.pixels(); ++i) ASSERT_NEAR(a.plane(0)[i], b.plane(0)[i], 1e-5);
+}
+
+TEST(Raster, FillsTilesLikePictures) {
+    for (const int scale : {2, 4, 8}) {
+        const Image raster = noise(raster_size(kWidth, scale), raster_size(kHeight, scale), 5);
+        const Image picture = between(raster, scale);
+        const SpriteTiles tiles(kWidth, kHeight);
+        std::vector<float> scratch(3 * SpriteTiles::kPlane);
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            const SpriteTile tile = tiles.cleared_tile(i, 1, scratch.data());
+            add_between(raster, scale, tile);
+            for (int y = 0; y < tile.height; ++y) {
+                for (int x = 0; x < tile.width; ++x) {
+                    ASSERT_EQ(tile.planes[0][y * tile.stride + x],
+                              picture.at(tile.x + x, tile.y + y));
+                }
+            }
+        }
+    }
 }
 
 TEST(Raster, InterpolatesPlanesExactly) {

@@ -55,25 +55,4 @@ void SpriteTiles::sort(const std::vector<Sprite>& sprites) {
     }
 }
 
-void add_to_picture(const SpriteTile& tile, const float* weights, const ImageView& out) {
-    for (int y = 0; y < tile.height; ++y) {
-        const float* weight = weights == nullptr
-                                  ? nullptr
-                                  : weights + std::ptrdiff_t{tile.y + y} * out.width + tile.x;
-        for (int c = 0; c < tile.channels; ++c) {
-            float* row = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
-            float* to = &out.at(tile.x, tile.y + y, c);
-            if (weight != nullptr) {
-                for (int x = 0; x < tile.width; ++x) row[x] /= weight[x];
-            }
-            // A stride of 1 that the compiler knows of becomes vectors.
-            if (out.pixel_stride == 1) {
-                for (int x = 0; x < tile.width; ++x) to[x] += row[x];
-            } else {
-                for (int x = 0; x < tile.width; ++x) to[x * out.pixel_stride] += row[x];
-            }
-        }
-    }
-}
-
 }  // namespace aureole::glare

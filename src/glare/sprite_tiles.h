@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "aureole/image/image.h"
 #include "glare/sprite_drawing.h"
 
 namespace aureole::glare {
@@ -41,9 +40,5 @@ class SpriteTiles {
     std::vector<std::size_t> first_;  // in order_, per tile, and the end
     std::vector<std::uint32_t> order_;
 };
-
-// out(x) += tile(x) / weights(x), as many channels as the tile has; `weights`: null, or one factor
-// for each pixel of the picture.
-void add_to_picture(const SpriteTile& tile, const float* weights, const ImageView& out);
 
 }  // namespace aureole::glare

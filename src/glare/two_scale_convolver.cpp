@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "aureole/base/parallel.h"
 #include "aureole/glare/energy.h"
 
 namespace aureole::glare {
@@ -20,28 +19,18 @@ Image mirrored(const Image& kernel) {
 }  // namespace
 
 TwoScaleConvolver::TwoScaleConvolver(int width, int height, int channels, const FarKernel& kernel)
-    : channels_(channels),
-      scale_(kernel.scale),
+    : scale_(kernel.scale),
       near_(width, height, channels, kernel.near),
       gatherer_(width, kernel.scale),
       raster_(raster_size(width, kernel.scale), raster_size(height, kernel.scale), channels),
-      far_(raster_.width(), raster_.height(), channels, kernel.coarse),
-      tiles_(width, height),
-      scratch_(static_cast<std::size_t>(max_workers())) {
-    for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
-}
+      far_(raster_.width(), raster_.height(), channels, kernel.coarse) {}
 
 void TwoScaleConvolver::run(const ConstImageView& in, const ImageView& out,
                             const float* weights) noexcept {
     gatherer_.run(in, weights, raster_);
     far_.run(raster_, raster_);
     near_.run(in, out, weights);
-    parallel_for(tiles_.size(), [&](std::size_t i, int worker) {
-        const SpriteTile tile =
-            tiles_.cleared_tile(i, channels_, scratch_[static_cast<std::size_t>(worker)].data());
-        add_between(raster_, scale_, tile);
-        add_to_picture(tile, weights, out);
-    });
+    add_between(raster_, scale_, weights, out);
 }
 
 Image share_inside(int width, int height, const FarKernel& kernel) {

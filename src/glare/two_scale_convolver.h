@@ -9,12 +9,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "aureole/fourier/convolver.h"
 #include "glare/far_kernel.h"
 #include "glare/raster.h"
-#include "glare/sprite_tiles.h"
 
 namespace aureole::glare {
 
@@ -31,14 +29,11 @@ class TwoScaleConvolver {
     int padded_height() const { return near_.padded_height(); }
 
   private:
-    int channels_;
     int scale_;
     fourier::Convolver near_;
     RasterGatherer gatherer_;
     Image raster_;
     fourier::Convolver far_;
-    SpriteTiles tiles_;
-    std::vector<Buffer> scratch_;
 };
 
 // For every pixel, the share of its light that run() leaves inside the picture, one plane per
