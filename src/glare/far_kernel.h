@@ -29,7 +29,7 @@ struct FarKernel {
 // The split whose far part is the cheapest to draw, with an error of at most `most_error`; nothing
 // if there is none, or the kernel is too small for one to pay.
 std::optional<FarKernel> find_far_kernel(const ConstImageView& kernel, double most_error);
-// The same with a given scale and the smallest near part.
+// With a given scale, for transforms: a near part of 256 pixels if that will do.
 std::optional<FarKernel> find_far_kernel(const ConstImageView& kernel, int scale,
                                          double most_error);
 

@@ -65,23 +65,21 @@ class LineProjection {
 
     int nodes() const { return 2 * half_ + 1; }
 
-    // sample(i) for i in [0, count) to node(j, value) for j in [0, nodes).
-    template <class Sample, class Node>
-    void run(const Sample& sample, const Node& node) const {
-        std::vector<double> line(static_cast<std::size_t>(nodes()), 0.0);
+    // `samples`: count of them; `line`: nodes() of them.
+    void run(const float* samples, std::vector<double>& line) const {
         for (int j = 0; j < nodes(); ++j) {
             const int first = count_ / 2 + (j - half_) * scale_ - (2 * scale_ - 1);
             const int begin = std::max(0, -first);
             const int end = std::min(4 * scale_ - 1, count_ - first);
             double sum = 0;
             for (int i = begin; i < end; ++i) {
-                sum += overlap_[static_cast<std::size_t>(i)] * sample(first + i);
+                sum += overlap_[static_cast<std::size_t>(i)] *
+                       static_cast<double>(samples[first + i]);
             }
             line[static_cast<std::size_t>(j)] = sum;
         }
         solver_.solve(line);
         solver_.solve(line);
-        for (int j = 0; j < nodes(); ++j) node(j, line[static_cast<std::size_t>(j)]);
     }
 
   private:
@@ -92,27 +90,36 @@ class LineProjection {
     OverlapSolver solver_;
 };
 
+// Each row becomes a column of nodes.
+Image projected_rows(const Image& image, int scale) {
+    const LineProjection projection(image.width(), scale);
+    constexpr int kRows = 16;  // at a time: whole cache lines of the result
+    Image result(image.height(), projection.nodes(), image.channels());
+    const int blocks = (image.height() + kRows - 1) / kRows;
+    parallel_for(static_cast<std::size_t>(blocks), [&](std::size_t block, int) {
+        const int y0 = static_cast<int>(block) * kRows;
+        const int count = std::min(kRows, image.height() - y0);
+        std::vector<double> line(static_cast<std::size_t>(projection.nodes()));
+        std::vector<float> lines(line.size() * kRows);
+        for (int c = 0; c < image.channels(); ++c) {
+            for (int i = 0; i < count; ++i) {
+                projection.run(image.row(y0 + i, c), line);
+                for (std::size_t j = 0; j < line.size(); ++j) {
+                    lines[j * kRows + static_cast<std::size_t>(i)] = static_cast<float>(line[j]);
+                }
+            }
+            for (int j = 0; j < projection.nodes(); ++j) {
+                std::copy_n(lines.data() + j * kRows, count, result.row(j, c) + y0);
+            }
+        }
+    });
+    return result;
+}
+
 }  // namespace
 
 Image raster_kernel(const Image& far, int scale) {
-    const LineProjection across(far.width(), scale);
-    const LineProjection down(far.height(), scale);
-    Image rows(across.nodes(), far.height(), far.channels());
-    Image coarse(across.nodes(), down.nodes(), far.channels());
-    for (int c = 0; c < far.channels(); ++c) {
-        parallel_for(static_cast<std::size_t>(far.height()), [&](std::size_t y, int) {
-            const float* from = far.row(static_cast<int>(y), c);
-            float* to = rows.row(static_cast<int>(y), c);
-            across.run([&](int i) { return static_cast<double>(from[i]); },
-                       [&](int j, double value) { to[j] = static_cast<float>(value); });
-        });
-        parallel_for(static_cast<std::size_t>(coarse.width()), [&](std::size_t column, int) {
-            const int x = static_cast<int>(column);
-            down.run([&](int i) { return static_cast<double>(rows.at(x, i, c)); },
-                     [&](int j, double value) { coarse.at(x, j, c) = static_cast<float>(value); });
-        });
-    }
-    return coarse;
+    return projected_rows(projected_rows(far, scale), scale);
 }
 
 }  // namespace aureole::glare

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "aureole/base/random.h"
-#include "glare/far_kernel.h"
+#include "glare/raster_error.h"
 #include "glare/raster_kernel.h"
 #include "glare/sprite_tiles.h"
 
@@ -223,6 +223,31 @@ TEST(RasterKernel, IsTheNearest) {
             other.at(kernel.width() / 2 + 4, kernel.height() / 2 + 1) *= 1 + change;
             EXPECT_LT(least, squares(other, far, scale));
         }
+    }
+}
+
+TEST(RasterError, IsThatOfWhatIsDrawn) {
+    for (const int scale : {2, 4}) {
+        const Image far = wings(61, 21);
+        const Image kernel = raster_kernel(far, scale);
+        double worst = 0;
+        for (const int dy : {0, scale / 2}) {
+            for (const int dx : {0, scale / 2}) {
+                const int x = 148 + dx;
+                const int y = 20 + dy;
+                const Image drawn = response(kernel, scale, x, y);
+                double sum = 0;
+                for (int v = 0; v < 21; ++v) {
+                    for (int u = 0; u < 61; ++u) {
+                        sum += std::abs(static_cast<double>(drawn.at(x + u - 30, y + v - 10)) -
+                                        far.at(u, v));
+                    }
+                }
+                worst = std::max(worst, sum);
+            }
+        }
+        EXPECT_NEAR(raster_error(far, kernel, scale, 1), worst, 1e-4 * worst);
+        EXPECT_GT(raster_error(far, kernel, scale, 0.1 * worst), 0.1 * worst);
     }
 }
 
