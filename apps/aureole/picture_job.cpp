@@ -98,7 +98,7 @@ void SpreadSettings::add_options(CLI::App& group) {
     one_of(group.add_option("--resolution", resolution,
                             "Of --method fft: half, quarter: what lights send far away is computed "
                             "on a raster of 2 or 4 pixels, which is faster; what is near stays "
-                            "exact. The error, at most 2.5e-4 of the light, is in --json"),
+                            "exact. The error, at most 1e-3 of the light, is in --json"),
            {"full", "half", "quarter"})
         ->capture_default_str();
     error_option_ = number(group.add_option(

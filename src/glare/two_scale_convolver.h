@@ -42,7 +42,7 @@ Image share_inside(int width, int height, const FarKernel& kernel);
 
 // The split for a raster of `scale` pixels with an error of at most kMostRasterError whose
 // transforms are smaller than those of the whole kernel; nothing if there is none.
-inline constexpr double kMostRasterError = 2.5e-4;
+inline constexpr double kMostRasterError = 1e-3;
 std::optional<FarKernel> split_for_transforms(int width, int height, const ConstImageView& kernel,
                                               int scale);
 

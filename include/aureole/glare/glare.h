@@ -46,7 +46,7 @@ std::string_view name_of(Method method) noexcept;
 // chosen here: so small lights and textures are as they are at full resolution. Far goes to a
 // raster and back with weights that keep energy and centroid of every light: nothing moves in
 // steps. How far the result is from kFull's is measured when the object is made, and is at most
-// 2.5e-4 of the light (in the sense of GlareOptions::cluster_error); kernels for which it would be
+// 1e-3 of the light (in the sense of GlareOptions::cluster_error); kernels for which it would be
 // more, or that are too small for a raster to save anything, are applied at full resolution.
 // docs/reduced_resolution.md derives it.
 enum class Resolution {
