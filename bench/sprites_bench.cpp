@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -18,33 +17,10 @@
 #include "aureole/glare/glare.h"
 #include "aureole/glare/sprites.h"
 #include "aureole/image/view.h"
+#include "medians.h"
 
 namespace aureole::bench {
 namespace {
-
-double now_ms() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double, std::milli>(now).count();
-}
-
-// Medians of runs in turns, so that the machine's other work hits all of them.
-std::vector<double> medians_ms(const std::vector<std::function<void()>>& cases, int rounds = 5) {
-    std::vector<std::vector<double>> times(cases.size());
-    for (int round = 0; round <= rounds; ++round) {
-        for (std::size_t i = 0; i < cases.size(); ++i) {
-            const double start = now_ms();
-            cases[i]();
-            if (round > 0) times[i].push_back(now_ms() - start);  // the first one warms up
-        }
-    }
-    std::vector<double> medians;
-    for (auto& list : times) {
-        std::nth_element(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2),
-                         list.end());
-        medians.push_back(list[list.size() / 2]);
-    }
-    return medians;
-}
 
 // A peak, wings of r^-2.4, and six streaks; of sum 1.
 Image star_kernel(int width, int height) {

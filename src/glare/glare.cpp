@@ -235,7 +235,8 @@ struct Glare::Impl {
                     sum.out += weight * out.at(x, y, c);
                     const double spreading_light =
                         weight * options.gain * light_of(value, matte, pixel);
-                    sum.off_picture += spreading_light * (1.0 - spreading->share_inside().at(x, y, c));
+                    sum.off_picture +=
+                        spreading_light * (1.0 - spreading->share_inside().at(x, y, c));
                     // What was cut off, as its bound.
                     sum.off_picture += std::abs(spreading_light) * spreading->last().energy_cut;
                     sum.from_surround += spreading_light * from_surround(x, y, c);

@@ -98,8 +98,7 @@ void add_between(const Image& raster, int scale, const SpriteTile& tile) {
     Line line;
     for (int y = 0; y < tile.height; ++y) {
         for (int c = 0; c < tile.channels; ++c) {
-            const float* from =
-                row_between(raster, scale, tile.x, tile.y + y, c, tile.width, line);
+            const float* from = row_between(raster, scale, tile.x, tile.y + y, c, tile.width, line);
             float* to = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
             for (int x = 0; x < tile.width; ++x) to[x] += from[x];
         }

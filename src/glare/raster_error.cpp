@@ -44,7 +44,10 @@ double row_difference(const float* nodes, int skipped, const float* truth, int c
 class ErrorAt {
   public:
     ErrorAt(const Image& far, const Image& kernel, int scale)
-        : far_(far), kernel_(kernel), scale_(scale), rows_(static_cast<std::size_t>(far.height())) {}
+        : far_(far),
+          kernel_(kernel),
+          scale_(scale),
+          rows_(static_cast<std::size_t>(far.height())) {}
 
     double operator()(int c, int phase_x, int phase_y) {
         parallel_for(rows_.size(), [&](std::size_t row, int) {

@@ -16,13 +16,15 @@ std::vector<double> overlaps(int scale) {
     for (int i = 0; i < 2 * scale; ++i) hat.push_back(1 - std::abs((i + 0.5) / scale - 1));
     std::vector<double> sums(static_cast<std::size_t>(4 * scale - 1), 0.0);
     for (std::size_t i = 0; i < hat.size(); ++i) {
-        for (std::size_t j = 0; j < hat.size(); ++j) sums[j + hat.size() - 1 - i] += hat[i] * hat[j];
+        for (std::size_t j = 0; j < hat.size(); ++j)
+            sums[j + hat.size() - 1 - i] += hat[i] * hat[j];
     }
     return sums;
 }
 
 // Solves G x = line in place, G the overlaps of neighbouring nodes. At the ends what G would take
-// from beyond is taken from the last node itself, so that sums change by the same factor everywhere.
+// from beyond is taken from the last node itself, so that sums change by the same factor
+// everywhere.
 class OverlapSolver {
   public:
     OverlapSolver(int scale, int length) : pivots_(static_cast<std::size_t>(length)) {
@@ -73,8 +75,8 @@ class LineProjection {
             const int end = std::min(4 * scale_ - 1, count_ - first);
             double sum = 0;
             for (int i = begin; i < end; ++i) {
-                sum += overlap_[static_cast<std::size_t>(i)] *
-                       static_cast<double>(samples[first + i]);
+                sum +=
+                    overlap_[static_cast<std::size_t>(i)] * static_cast<double>(samples[first + i]);
             }
             line[static_cast<std::size_t>(j)] = sum;
         }

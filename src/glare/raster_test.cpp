@@ -117,8 +117,8 @@ TEST(Raster, InterpolatesPlanesExactly) {
         Image raster(raster_size(kWidth, scale), raster_size(kHeight, scale), 1);
         for (int j = 0; j < raster.height(); ++j) {
             for (int i = 0; i < raster.width(); ++i) {
-                raster.at(i, j) = static_cast<float>(2 * node_place(i, scale) -
-                                                     3 * node_place(j, scale));
+                raster.at(i, j) =
+                    static_cast<float>(2 * node_place(i, scale) - 3 * node_place(j, scale));
             }
         }
         const Image picture = between(raster, scale);

@@ -232,7 +232,8 @@ TEST(ReducedResolution, IsFullWhereARasterWouldBeWrongOrSaveNothing) {
 TEST(ReducedResolution, IsForTransformsOnly) {
     const View view = view_of();
     const wave::Psf psf = wide_psf(view);
-    for (const Method method : {Method::kDirect, Method::kSprites, Method::kHybrid, Method::kAuto}) {
+    for (const Method method :
+         {Method::kDirect, Method::kSprites, Method::kHybrid, Method::kAuto}) {
         GlareOptions options = at(Resolution::kHalf);
         options.method = method;
         EXPECT_THROW(Glare(view, 3, psf, options), InvalidArgument);

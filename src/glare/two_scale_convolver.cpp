@@ -58,9 +58,9 @@ std::optional<FarKernel> split_for_transforms(int width, int height, const Const
                                               int scale) {
     std::optional<FarKernel> split = find_far_kernel(kernel, scale, kMostRasterError);
     if (!split) return std::nullopt;
-    const double two = needed_pixels(width, height, split->near) +
-                       needed_pixels(raster_size(width, scale), raster_size(height, scale),
-                                     split->coarse);
+    const double two =
+        needed_pixels(width, height, split->near) +
+        needed_pixels(raster_size(width, scale), raster_size(height, scale), split->coarse);
     if (two >= needed_pixels(width, height, kernel)) return std::nullopt;
     return split;
 }

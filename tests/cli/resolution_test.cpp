@@ -27,7 +27,7 @@ double relative_difference(const Image& a, const Image& b) {
 
 TEST_F(ReducedResolution, IsCloseToFullAndSaysHowClose) {
     write("in.exr", noise(300, 280, 3));
-    const std::string words = "glare in.exr -o out.exr --fov 10 --pupil 3";
+    const std::string words = "glare in.exr -o out.exr --fov 35 --pupil 3";
     const auto full = report(words);
     EXPECT_EQ(full["parameters"]["resolution"], "full");
     EXPECT_EQ(full.count("raster"), 0U);

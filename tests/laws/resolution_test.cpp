@@ -144,8 +144,7 @@ TEST_P(Drift, KeepsEnergyAndPeakPosition) {
         const Image image = frame(i, glare_);
         most_energy = std::max(most_energy, std::abs(sum_of(image) / first - 1));
         const auto [x, y] = peak_of(image);
-        most_distance =
-            std::max({most_distance, std::abs(x - x_of(i)), std::abs(y - y_of(i))});
+        most_distance = std::max({most_distance, std::abs(x - x_of(i)), std::abs(y - y_of(i))});
     }
     EXPECT_LE(most_energy, 0.005);
     EXPECT_LE(most_distance, 0.125);
@@ -165,9 +164,9 @@ TEST_P(Drift, LooksAsAtFullResolution) {
     }
 }
 
-// Seen from a pixel far away the star comes steadily nearer, or goes: its light there grows or falls,
-// pixel of drift by pixel of drift as at full resolution. Blocks of a raster that moved as such
-// would stand still for a pixel or more, and then make up for all of it at once.
+// Seen from a pixel far away the star comes steadily nearer, or goes: its light there grows or
+// falls, pixel of drift by pixel of drift as at full resolution. Blocks of a raster that moved as
+// such would stand still for a pixel or more, and then make up for all of it at once.
 TEST_P(Drift, ChangesWhatIsFarAwaySmoothly) {
     // Of the transforms, at full resolution as well.
     constexpr double kRounding = 4e-9 * static_cast<double>(kEnergy);
@@ -211,16 +210,14 @@ TEST_P(Drift, ChangesWhatIsFarAwaySmoothly) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Drift,
-                         testing::Values(DriftCase{"smooth", Resolution::kFull},
-                                         DriftCase{"smooth", Resolution::kHalf},
-                                         DriftCase{"smooth", Resolution::kQuarter},
-                                         DriftCase{"eye", Resolution::kHalf},
-                                         DriftCase{"eye", Resolution::kQuarter}),
-                         [](const auto& test_case) {
-                             return test_case.param.psf + "_" +
-                                    std::string(name_of(test_case.param.resolution));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Of, Drift,
+    testing::Values(DriftCase{"smooth", Resolution::kFull}, DriftCase{"smooth", Resolution::kHalf},
+                    DriftCase{"smooth", Resolution::kQuarter}, DriftCase{"eye", Resolution::kHalf},
+                    DriftCase{"eye", Resolution::kQuarter}),
+    [](const auto& test_case) {
+        return test_case.param.psf + "_" + std::string(name_of(test_case.param.resolution));
+    });
 
 }  // namespace
 }  // namespace aureole
