@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <vector>
 
 #include "aureole/glare/glare.h"
+#include "medians.h"
 #include "sprites_pictures.h"
 
 namespace aureole::bench {
@@ -15,11 +15,6 @@ namespace aureole::bench {
 inline constexpr int kRounds = 5;
 // A case that takes that many times the fastest one is measured once.
 inline constexpr double kHopeless = 8;
-
-inline double now_ms() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double, std::milli>(now).count();
-}
 
 inline double timed_ms(const std::function<void()>& body) {
     const double start = now_ms();

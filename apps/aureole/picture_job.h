@@ -44,6 +44,7 @@ struct SpreadSettings {
     std::string first_selective() const;
 
     std::string method = "fft";
+    std::string resolution = "full";
     double cluster_error = 0.01;
     float threshold = 0;
     float gain = 1;

@@ -48,6 +48,8 @@ class FarLayer {
     void draw();
     // And from the raster added to a tile of the picture.
     void add_to(const SpriteTile& tile) const;
+    // Or to all of it, over its weights (null: 1).
+    void add_to(const ImageView& out, const float* weights) const noexcept;
 
   private:
     int channels_;

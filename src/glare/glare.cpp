@@ -42,6 +42,11 @@ void check(const View& view, int channels, const wave::Psf& psf, const GlareOpti
             "cluster side", std::to_string(options.cluster_side),
             "must be a power of two up to " + std::to_string(sources::kMaxClusterSide));
     }
+    if (options.resolution != Resolution::kFull && options.method != Method::kFft) {
+        throw InvalidArgument("resolution", std::string(name_of(options.resolution)),
+                              "must be full with the method " +
+                                  std::string(name_of(options.method)) + ": others need fft");
+    }
     if (psf.grid.projection != view.projection ||
         std::abs(psf.grid.pitch_deg / view.pitch_deg - 1) > 1e-3) {
         throw InvalidArgument("pitch of the PSF (deg)", std::to_string(psf.grid.pitch_deg),
@@ -78,6 +83,25 @@ std::string_view name_of(Method method) noexcept {
     return "auto";
 }
 
+Resolution resolution_from_name(std::string_view name) {
+    if (name == "full") return Resolution::kFull;
+    if (name == "half") return Resolution::kHalf;
+    if (name == "quarter") return Resolution::kQuarter;
+    throw InvalidArgument("resolution", std::string(name), "must be full, half or quarter");
+}
+
+std::string_view name_of(Resolution resolution) noexcept {
+    switch (resolution) {
+        case Resolution::kFull:
+            return "full";
+        case Resolution::kHalf:
+            return "half";
+        case Resolution::kQuarter:
+            break;
+    }
+    return "quarter";
+}
+
 std::string_view name_of(MethodReport::Reason reason) noexcept {
     switch (reason) {
         case MethodReport::Reason::kAsked:
@@ -109,7 +133,6 @@ struct Glare::Impl {
         if (channels == 1) grey = luminance_kernel(psf.kernel);
         const Image& kernel = channels == 1 ? grey : psf.kernel;
         spreading.emplace(view.width, view.height, channels, kernel, options);
-        share = share_inside(view.width, view.height, kernel);
         if (view.projection == Projection::kPerspective) weights = relative_solid_angles(view);
         if (selective()) light = Image(view.width, view.height, channels);
         // For those that cannot work in place.
@@ -129,9 +152,13 @@ struct Glare::Impl {
     void measure_surround(const Image& kernel) {
         for_each_row([&](int y, int c) { std::fill_n(light.row(y, c), view.width, 1.0F); });
         surround = Image(view.width, view.height, channels);
-        // Exactly, whatever the method for pictures is.
-        fourier::Convolver(view.width, view.height, channels, kernel)
-            .run(light, surround, weight_plane());
+        // Without the errors of methods that depend on the light, whatever the one for pictures is.
+        if (options.method == Method::kFft) {
+            spreading->run(light, surround, weight_plane());
+        } else {
+            fourier::Convolver(view.width, view.height, channels, kernel)
+                .run(light, surround, weight_plane());
+        }
         for_each_row([&](int y, int c) {
             float* row = surround.row(y, c);
             for (int x = 0; x < view.width; ++x) row[x] = 1.0F - row[x];
@@ -210,7 +237,8 @@ struct Glare::Impl {
                     sum.out += weight * out.at(x, y, c);
                     const double spreading_light =
                         weight * options.gain * light_of(value, matte, pixel);
-                    sum.off_picture += spreading_light * (1.0 - share.at(x, y, c));
+                    sum.off_picture +=
+                        spreading_light * (1.0 - spreading->share_inside().at(x, y, c));
                     // What was cut off, as its bound.
                     sum.off_picture += std::abs(spreading_light) * spreading->last().energy_cut;
                     sum.from_surround += spreading_light * from_surround(x, y, c);
@@ -231,7 +259,6 @@ struct Glare::Impl {
     int channels;
     GlareOptions options;
     std::optional<Spreading> spreading;
-    Image share;     // inside the picture, per source pixel and kernel channel
     Image weights;   // relative solid angles, perspective only
     Image light;     // what makes glare, if not everything does
     Image spread;    // and what becomes of it

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "aureole/fourier/convolver.h"
 #include "aureole/sources/brightness_histogram.h"
@@ -60,16 +59,11 @@ class Hybrid {
     double lost() const { return lost_; }
 
   private:
-    void add_far(const ImageView& out, const float* weights) noexcept;
-
     double error_;
     double lost_ = 0;
-    SpriteTiles tiles_;
-    int channels_;
     std::optional<FarLayer> far_;
     std::optional<fourier::Convolver> convolver_;
     std::size_t planned_ = 0;  // sprites
-    std::vector<Buffer> scratch_;
 };
 
 }  // namespace aureole::glare

@@ -6,12 +6,27 @@
 #include "glare/far_kernel.h"
 
 namespace aureole::glare {
+namespace {
+
+int raster_scale(Resolution resolution) { return resolution == Resolution::kHalf ? 2 : 4; }
+
+}  // namespace
 
 Spreading::Spreading(int width, int height, int channels, const Image& kernel,
                      const GlareOptions& options)
     : width_(width), height_(height), asked_(options.method) {
     if (asked_ == Method::kDirect) direct_kernel_ = kernel;
     const bool automatic = asked_ == Method::kAuto;
+    if (options.resolution != Resolution::kFull) {
+        if (const auto split =
+                split_for_transforms(width, height, kernel, raster_scale(options.resolution))) {
+            two_scale_.emplace(width, height, channels, *split);
+            share_inside_ = glare::share_inside(width, height, *split);
+            report_.raster = {split->scale, split->near_radius, split->error};
+            return;
+        }
+    }
+    share_inside_ = glare::share_inside(width, height, kernel);
     if (asked_ == Method::kFft || automatic) convolver_.emplace(width, height, channels, kernel);
     if (asked_ == Method::kDirect || asked_ == Method::kFft) return;
     const std::optional<FarKernel> split =
@@ -30,10 +45,12 @@ Spreading::Spreading(int width, int height, int channels, const Image& kernel,
 }
 
 int Spreading::padded_width() const {
+    if (two_scale_) return two_scale_->padded_width();
     if (convolver_) return convolver_->padded_width();
     return hybrid_ ? hybrid_->convolver().padded_width() : width_;
 }
 int Spreading::padded_height() const {
+    if (two_scale_) return two_scale_->padded_height();
     if (convolver_) return convolver_->padded_height();
     return hybrid_ ? hybrid_->convolver().padded_height() : height_;
 }
@@ -89,7 +106,12 @@ void Spreading::run(const ConstImageView& in, const ImageView& out, const float*
             break;
         }
         default:
-            convolver_->run(in, out, weights);
+            if (two_scale_) {
+                report_plan(1, report_.raster.error, 0, 0);
+                two_scale_->run(in, out, weights);
+            } else {
+                convolver_->run(in, out, weights);
+            }
     }
     const double end = clock_seconds();
     if (choice_) choice_->observe(end - chosen);

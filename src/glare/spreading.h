@@ -9,6 +9,7 @@
 #include "glare/hybrid.h"
 #include "glare/method_choice.h"
 #include "glare/sprite_painter.h"
+#include "glare/two_scale_convolver.h"
 
 namespace aureole::glare {
 
@@ -24,6 +25,10 @@ class Spreading {
 
     void run(const ConstImageView& in, const ImageView& out, const float* weights) noexcept;
 
+    // For every pixel, the share of its light that stays inside the picture: by the kernel itself,
+    // or by what stands for it at reduced resolution.
+    const Image& share_inside() const { return share_inside_; }
+
     const MethodReport& last() const { return report_; }
     int padded_width() const;
     int padded_height() const;
@@ -38,6 +43,8 @@ class Spreading {
     int width_;
     int height_;
     std::optional<fourier::Convolver> convolver_;
+    std::optional<TwoScaleConvolver> two_scale_;  // in its place at reduced resolution
+    Image share_inside_;
     Image direct_kernel_;
     std::optional<SpritePainter> painter_;
     std::optional<Hybrid> hybrid_;

@@ -33,7 +33,7 @@ TEST_F(FieldVarying, RefusesWhatItDoesNotKnow) {
     write("in.exr", noise(8, 8, 3));
     for (const char* options :
          {"0.1", "maybe", "on --threshold 1", "on --gain 2", "on --surround same",
-          "on --method direct", "on --observer camera"}) {
+          "on --method direct", "on --resolution half", "on --observer camera"}) {
         const Outcome outcome =
             run(std::string("glare in.exr -o out.exr --field-varying ") + options);
         EXPECT_EQ(outcome.exit_code, 2) << options;

@@ -41,6 +41,24 @@ enum class Method {
 Method method_from_name(std::string_view name);
 std::string_view name_of(Method method) noexcept;
 
+// Of kFft: how finely what lights send far away is computed. The kernel is split smoothly into near
+// and far; near, out to 64 pixels or more, is applied to all light at full resolution, whatever is
+// chosen here: so small lights and textures are as they are at full resolution. Far goes to a
+// raster and back with weights that keep energy and centroid of every light: nothing moves in
+// steps. How far the result is from kFull's is measured when the object is made, and is at most
+// 1e-3 of the light (in the sense of GlareOptions::cluster_error); kernels for which it would be
+// more, or that are too small for a raster to save anything, are applied at full resolution.
+// docs/reduced_resolution.md derives it.
+enum class Resolution {
+    kFull,
+    kHalf,     // a raster of 2 pixels
+    kQuarter,  // of 4
+};
+
+// The names used on the command line: full, half, quarter. Throws InvalidArgument for any other.
+Resolution resolution_from_name(std::string_view name);
+std::string_view name_of(Resolution resolution) noexcept;
+
 // What lies beyond the picture's border.
 enum class Surround {
     kDark,  // nothing: the physics of a picture that is all there is. Pixels at the border lose
@@ -55,6 +73,7 @@ Surround surround_from_name(std::string_view name);
 
 struct GlareOptions {
     Method method = Method::kFft;
+    Resolution resolution = Resolution::kFull;  // others: kFft only
     // Pixel values up to here make no glare, per channel and continuously (in the picture's
     // units); 0, the physical default, lets everything through.
     float threshold = 0;
@@ -94,6 +113,13 @@ struct MethodReport {
     std::array<Candidate, 3> candidates = {Candidate{Method::kFft}, Candidate{Method::kSprites},
                                            Candidate{Method::kHybrid}};
     std::size_t sprites = 0;  // far ones included
+    // The raster for the far part of the kernel; the same for all pictures.
+    struct Raster {
+        int scale = 1;        // pixels along a side of it; 1: there is none
+        int near_radius = 0;  // pixels: where the near part ends
+        double error = 0;     // over the sum of solid angle times |light|
+    };
+    Raster raster;
     // Both over the sum of solid angle times |light|.
     double error_bound = 0;
     double energy_cut = 0;  // at most, light that ended with sprites or a kernel's end
@@ -106,8 +132,9 @@ class Glare {
     // `channels` is 3 (RGB) or 1 (grey: the luminance of the PSF). The kernel may have any size;
     // what lies beyond it counts as off the picture. The PSF is not kept.
     // Throws InvalidArgument for other channel counts, negative threshold or gain, and when the
-    // PSF was made for another pitch or projection than the view's (by more than 0.1 %), and for
-    // cluster_error and cluster_side out of range. kAuto times the methods for some 100 ms, the
+    // PSF was made for another pitch or projection than the view's (by more than 0.1 %), for
+    // cluster_error and cluster_side out of range, and for a reduced resolution with other methods
+    // than kFft. kAuto times the methods for some 100 ms, the
     // first one of a process a little longer.
     Glare(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options = {});
     ~Glare();
