@@ -78,8 +78,8 @@ void GlareCommand::add_options(CLI::App& command) {
                                   "physical: as measured; vivid (eye): what people say they see "
                                   "(corona contrast 2.5 to 4, streaks x1.5); sikachev: streaks of "
                                   "what is brighter than 1, as clusters, then bloom (--passes both "
-                                  "--method sprites --threshold 1 --tone-map xyz --antialias edges; "
-                                  "camera: --blades 6 --ghosts none); blog (camera): ghosts as "
+                                  "--method sprites --cluster-error 0.001 --threshold 1 --tone-map "
+                                  "xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): ghosts as "
                                   "drawn by a game, faded polygons of one colour each"),
                {"physical", "vivid", "sikachev", "blog"});
     preset_option->capture_default_str();

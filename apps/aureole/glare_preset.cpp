@@ -12,6 +12,7 @@ struct PresetValue {
 // curve).
 constexpr PresetValue kSikachev[] = {{"--passes", "both"},
                                      {"--method", "sprites"},
+                                     {"--cluster-error", "0.001"},  // arms end unseen
                                      {"--threshold", "1"},
                                      {"--tone-map", "xyz"},
                                      {"--antialias", "edges"}};

@@ -113,7 +113,8 @@ TEST_F(Passes, WithoutGhostsThereAreNone) {
 
 TEST_F(Passes, SikachevIsItsOptions) {
     const std::string options =
-        " --passes both --method sprites --threshold 1 --tone-map xyz --antialias edges";
+        " --passes both --method sprites --cluster-error 0.001 --threshold 1 --tone-map xyz "
+        "--antialias edges";
     const auto same = [&](const std::string& preset, const std::string& bundle) {
         EXPECT_EQ(run("glare in.exr -o a.exr -o a.png --fov 6" + preset).exit_code, 0);
         EXPECT_EQ(run("glare in.exr -o b.exr -o b.png --fov 6" + bundle).exit_code, 0);

@@ -110,11 +110,11 @@ TEST_F(Star, AScratchThrowsLightAcrossItself) {
 // along both axes.
 TEST_F(Star, AGridMakesOrders) {
     constexpr int kPixels = 2048;
-    constexpr int kPeriod = 32;
+    constexpr int kPeriod = 16;
     Image glass(kPixels, kPixels, 1);
     for (int y = 0; y < kPixels; ++y) {
         for (int x = 0; x < kPixels; ++x) {
-            glass.at(x, y) = x % kPeriod < 4 || y % kPeriod < 4 ? 0.0F : 1.0F;
+            glass.at(x, y) = x % kPeriod < 2 || y % kPeriod < 2 ? 0.0F : 1.0F;
         }
     }
     write("glass.exr", glass);
