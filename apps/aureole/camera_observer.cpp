@@ -65,9 +65,8 @@ Spreading CameraObserver::spreading(const View& /*display*/, const View& data) {
     const wave::KernelGrid grid = wave::KernelGrid::full_reach(data);
     Spreading result;
     if (spread_.passes != Passes::kBloom) {
-        (spread_.passes == Passes::kOne ? result.rest : result.streaks) =
-            lens::starburst_psf(camera_.iris, camera_.entrance_pupil_mm(), grid, {},
-                                camera_.dirt(), &session_);
+        (spread_.passes == Passes::kOne ? result.rest : result.streaks) = lens::starburst_psf(
+            camera_.iris, camera_.entrance_pupil_mm(), grid, {}, camera_.dirt(), &session_);
     }
     if (spread_.passes == Passes::kBoth || spread_.passes == Passes::kBloom) {
         result.rest = lens::halation_psf(spread_.halation, camera_.lens.efl_mm(), grid);
@@ -112,6 +111,7 @@ void CameraObserver::report(nlohmann::ordered_json& json) const {
         parameters["halation"] = spread_.halation.share;
         parameters["halation_layer_mm"] = spread_.halation.layer_mm;
         parameters["halation_index"] = spread_.halation.refractive_index;
+        parameters["halation_backing"] = spread_.halation.backing;
     }
     parameters.update(ghost_options_.report(flare_options_));
     if (!ghost_options_.any()) return;

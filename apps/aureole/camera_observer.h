@@ -26,8 +26,8 @@ class CameraObserver : public Observer {
   public:
     // Loads lens, iris and all other files of the options: throws InvalidArgument, FileError.
     CameraObserver(const CameraOptions& camera, const GhostOptions& ghosts,
-                   const LightOptions& lights, const ViewOptions& view,
-                   const CameraSpread& spread, Session& session);
+                   const LightOptions& lights, const ViewOptions& view, const CameraSpread& spread,
+                   Session& session);
 
     View view_of(const io::Picture& picture) override;
     Spreading spreading(const View& display, const View& data) override;

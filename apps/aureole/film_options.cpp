@@ -14,7 +14,7 @@ void FilmOptions::add_options(CLI::App& command) {
         ->capture_default_str();
     number(group_->add_option("--halation-layer", halation_.layer_mm,
                               "Thickness of the base of the film, or of the cover glass of a "
-                              "sensor: the ring is about twice as far out"),
+                              "sensor: half of the light lies within about twice as much"),
            0.001, 100)
         ->type_name("MM")
         ->capture_default_str();
@@ -22,6 +22,12 @@ void FilmOptions::add_options(CLI::App& command) {
                               "Refractive index of that layer"),
            1.01, 4)
         ->type_name("N")
+        ->capture_default_str();
+    number(
+        group_->add_option("--halation-backing", halation_.backing,
+                           "Reflectance of what the layer lies on; 0 (air, black) leaves a ring"),
+        0, 1)
+        ->type_name("0..1")
         ->capture_default_str();
 }
 

@@ -73,15 +73,16 @@ void GlareCommand::add_options(CLI::App& command) {
                               "iris, and the ghosts of a lens"),
            {"eye", "camera"})
         ->capture_default_str();
-    preset_option =
-        one_of(command.add_option("--preset", preset,
-                                  "physical: as measured; vivid (eye): what people say they see "
-                                  "(corona contrast 2.5 to 4, streaks x1.5); sikachev: streaks of "
-                                  "what is brighter than 1, as clusters, then bloom (--passes both "
-                                  "--method sprites --cluster-error 0.001 --threshold 1 --tone-map "
-                                  "xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): ghosts as "
-                                  "drawn by a game, faded polygons of one colour each"),
-               {"physical", "vivid", "sikachev", "blog"});
+    preset_option = one_of(
+        command.add_option(
+            "--preset", preset,
+            "physical: as measured; vivid (eye): what people say they see "
+            "(corona contrast 2.5 to 4, streaks x1.5); sikachev: streaks of "
+            "what is brighter than 1, as clusters, then bloom (--passes both "
+            "--method sprites --cluster-error 0.001 --threshold 1 --tone-map "
+            "xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): ghosts as "
+            "drawn by a game, faded polygons of one colour each"),
+        {"physical", "vivid", "sikachev", "blog"});
     preset_option->capture_default_str();
     view.add_options(command, "60, or the lens's for a camera");
     view.add_white_luminance_option(command);
@@ -155,8 +156,8 @@ void GlareCommand::check_camera() {
 }
 
 void GlareCommand::check_eye() {
-    for (const std::string& option : {camera.first_given(), film.first_given(),
-                                      lights.first_given(), ghosts.first_given()}) {
+    for (const std::string& option :
+         {camera.first_given(), film.first_given(), lights.first_given(), ghosts.first_given()}) {
         refuse(option, "is an option of the camera: needs --observer camera");
     }
     refuse(preset == "blog" ? "--preset blog" : "", "needs --observer camera");

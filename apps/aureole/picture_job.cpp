@@ -140,11 +140,11 @@ void PictureJob::read_matte(const io::Picture& picture) {
     }
     const Image& image = picture.image();
     if (matte_.width() != image.width() || matte_.height() != image.height()) {
-        throw FileError(settings_.matte_file,
-                        fmt::format("is {}x{} pixels; a matte must have the size of the picture, "
-                                    "{}x{}",
-                                    matte_.width(), matte_.height(), image.width(),
-                                    image.height()));
+        throw FileError(
+            settings_.matte_file,
+            fmt::format("is {}x{} pixels; a matte must have the size of the picture, "
+                        "{}x{}",
+                        matte_.width(), matte_.height(), image.width(), image.height()));
     }
 }
 
@@ -237,9 +237,9 @@ void PictureJob::process(const FrameFiles& files) {
     nonfinite_pixels_ += nonfinite;
     read_matte(picture);
     average_samples(picture, files.input);
-    const float* const matte = matte_.empty()               ? nullptr
+    const float* const matte = matte_.empty()                 ? nullptr
                                : settings_.supersampling == 1 ? matte_.plane(0)
-                                                            : small_matte_.plane(0);
+                                                              : small_matte_.plane(0);
     exposure_ev_ = settings_.display.exposure_ev(picture);
     prepare(picture);
     session_.check_interrupt();
@@ -315,8 +315,8 @@ std::string PictureJob::report() {
                   {"threads", thread_count()}};
     if (last.chosen() != nullptr) {
         const glare::Glare& glare = last.rest ? *last.rest : *last.streaks;
-        parameters.update({{"padded_width", glare.padded_width()},
-                           {"padded_height", glare.padded_height()}});
+        parameters.update(
+            {{"padded_width", glare.padded_width()}, {"padded_height", glare.padded_height()}});
         parameters.update(spread_.report());
     }
     if (last.varying) {

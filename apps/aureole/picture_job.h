@@ -86,9 +86,9 @@ class PictureJob {
     Image solid_angles_;  // of pixels, relative to that on the axis
     Image result_;
     Image with_streaks_;  // between the two passes
-    Image layer_;  // what was added and taken away; empty unless it is written
-    Image matte_;        // as it was read
-    Image small_matte_;  // of the size of the result, with --supersampling
+    Image layer_;         // what was added and taken away; empty unless it is written
+    Image matte_;         // as it was read
+    Image small_matte_;   // of the size of the result, with --supersampling
     Energy energy_;
     bool has_ghosts_ = false;
     double exposure_ev_ = 0;  // of the last picture, for the report

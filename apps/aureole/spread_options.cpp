@@ -67,9 +67,8 @@ void SpreadSettings::check() const {
     if (method != "fft" && method != "direct") return;
     for (const CLI::Option* option : cluster_options_) {
         if (option->count() == 0) continue;
-        throw InvalidArgument(
-            option->get_name(), option->results().front(),
-            "needs --method sprites, hybrid or auto: " + method + " is exact");
+        throw InvalidArgument(option->get_name(), option->results().front(),
+                              "needs --method sprites, hybrid or auto: " + method + " is exact");
     }
 }
 
@@ -107,8 +106,7 @@ std::string SpreadSettings::first_selective() const {
 }
 
 nlohmann::ordered_json SpreadSettings::report() const {
-    nlohmann::ordered_json json = {
-        {"passes", passes_name}, {"gain", gain}, {"surround", surround}};
+    nlohmann::ordered_json json = {{"passes", passes_name}, {"gain", gain}, {"surround", surround}};
     if (passes() != Passes::kBloom) {
         json.update({{"cluster_error", cluster_error},
                      {"cluster_side", cluster_side},

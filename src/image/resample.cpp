@@ -23,8 +23,7 @@ Image area_average(const ConstImageView& picture, int factor) {
                 double sum = 0;
                 for (int j = 0; j < factor; ++j) {
                     for (int i = 0; i < factor; ++i) {
-                        sum += static_cast<double>(
-                            picture.at(x * factor + i, y * factor + j, c));
+                        sum += static_cast<double>(picture.at(x * factor + i, y * factor + j, c));
                     }
                 }
                 out[x] = static_cast<float>(share * sum);

@@ -40,10 +40,11 @@ void average_samples(Picture& picture, int n) {
     const Window data = picture.data_window();
     for (const Window& window : {display, data}) {
         if (divides(n, window)) continue;
-        throw InvalidArgument("supersampling", fmt::format("{}", n),
-                              fmt::format("must divide the windows of the picture, and one is {}x{} "
-                                          "pixels at ({}, {})",
-                                          window.width, window.height, window.x, window.y));
+        throw InvalidArgument(
+            "supersampling", fmt::format("{}", n),
+            fmt::format("must divide the windows of the picture, and one is {}x{} "
+                        "pixels at ({}, {})",
+                        window.width, window.height, window.x, window.y));
     }
     if (picture.other_parts() > 0) {
         throw InvalidArgument("supersampling", fmt::format("{}", n),

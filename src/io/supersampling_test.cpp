@@ -47,15 +47,14 @@ TEST(Supersampling, AveragesColourAndAlphaAndKeepsOneOfTheOthers) {
 
 // All of these ids are the same number as floats.
 TEST(Supersampling, KeepsIdsToTheLastBit) {
-    const ExrBytes exr{
-        {0, 0, 3, 3},
-        {0, 0, 3, 3},
-        {{"Y", ExrBytes::kFloat, [](int, int) { return little_endian(1.0F); }},
-         {"id", ExrBytes::kUint,
-          [](int x, int y) {
-              return little_endian(4000000001U + static_cast<unsigned>(x + 4 * y));
-          }}},
-        ""};
+    const ExrBytes exr{{0, 0, 3, 3},
+                       {0, 0, 3, 3},
+                       {{"Y", ExrBytes::kFloat, [](int, int) { return little_endian(1.0F); }},
+                        {"id", ExrBytes::kUint,
+                         [](int x, int y) {
+                             return little_endian(4000000001U + static_cast<unsigned>(x + 4 * y));
+                         }}},
+                       ""};
     const TemporaryFolder folder;
     write_bytes(folder.file("in.exr"), exr.bytes());
     Picture picture = read_picture(folder.file("in.exr"));
@@ -66,7 +65,8 @@ TEST(Supersampling, KeepsIdsToTheLastBit) {
     const int id = input->spec().channelindex("id");
     std::vector<std::uint32_t> ids(4);
     ASSERT_TRUE(input->read_image(0, 0, id, id + 1, OIIO::TypeUInt32, ids.data()));
-    EXPECT_EQ(ids, (std::vector<std::uint32_t>{4000000006U, 4000000008U, 4000000014U, 4000000016U}));
+    EXPECT_EQ(ids,
+              (std::vector<std::uint32_t>{4000000006U, 4000000008U, 4000000014U, 4000000016U}));
 }
 
 TEST(Supersampling, ByOneChangesNothing) {

@@ -29,33 +29,39 @@ void check(const HalationOptions& options, double efl_mm, const wave::KernelGrid
         refuse("refractive index of the layer", options.refractive_index,
                "must be above 1 and at most 4");
     }
+    if (!(options.backing >= 0 && options.backing <= 1)) {
+        refuse("reflectance of the backing", options.backing, "must be from 0 to 1");
+    }
     if (!(efl_mm > 0) || !std::isfinite(efl_mm)) {
         refuse("focal length (mm)", efl_mm, "must be positive");
     }
     if (grid.width < 1 || grid.height < 1 || grid.width % 2 == 0 || grid.height % 2 == 0 ||
         !(grid.pitch_deg > 0)) {
-        throw InvalidArgument("kernel",
-                              fmt::format("{}x{} pixels of {} deg", grid.width, grid.height,
-                                          grid.pitch_deg),
-                              "must have odd sides and a pitch above 0");
+        throw InvalidArgument(
+            "kernel",
+            fmt::format("{}x{} pixels of {} deg", grid.width, grid.height, grid.pitch_deg),
+            "must have odd sides and a pitch above 0");
     }
 }
 
-// From within the layer to air, by the squared sine of the angle; 1 beyond the critical one.
-double returned(double sine2, double refractive_index) {
+// What the far face and its backing return, by the squared sine of the angle within the layer; all
+// beyond the critical one.
+double returned(double sine2, double refractive_index, double backing) {
     if (sine2 * refractive_index * refractive_index >= 1) return 1;
     constexpr double kAnyNm = 550;  // without coating
-    return reflectance(refractive_index, 1, {}, kAnyNm, std::sqrt(1 - sine2)).mean();
+    const double face = reflectance(refractive_index, 1, {}, kAnyNm, std::sqrt(1 - sine2)).mean();
+    return face + (1 - face) * (1 - face) * backing / (1 - face * backing);
 }
 
 // H in units of t = r / 2d.
 class Ring {
   public:
-    explicit Ring(double n) : n_(n), mean_(diffuse_reflectance(n)) {}
+    Ring(double n, double backing)
+        : n_(n), backing_(backing), mean_(diffuse_reflectance(n, backing)) {}
 
     double density(double t2) const {
         const double s2 = t2 / (1 + t2);
-        return returned(s2, n_) / (mean_ * kPi * (1 + t2) * (1 + t2));
+        return returned(s2, n_, backing_) / (mean_ * kPi * (1 + t2) * (1 + t2));
     }
     // Energy beyond t, which must lie outside the critical angle: R is 1 there.
     double beyond(double t2) const { return 1 / (mean_ * (1 + t2)); }
@@ -63,6 +69,7 @@ class Ring {
 
   private:
     double n_;
+    double backing_;
     double mean_;
 };
 
@@ -103,7 +110,7 @@ double pixel_mean(const Ring& ring, double x, double y, double side) {
 
 }  // namespace
 
-double diffuse_reflectance(double refractive_index) {
+double diffuse_reflectance(double refractive_index, double backing) {
     const double n = refractive_index;
     // Over s^2, in which Lambertian light is even: all returned beyond 1 / n^2; below it in equal
     // steps of the cosine outside, where Fresnel's formulas have no steep end.
@@ -111,7 +118,7 @@ double diffuse_reflectance(double refractive_index) {
     double sum = 1 - 1 / (n * n);
     for (int k = 0; k < kSteps; ++k) {
         const double out = (k + 0.5) / kSteps;
-        sum += 2 * out / (n * n * kSteps) * returned((1 - out * out) / (n * n), n);
+        sum += 2 * out / (n * n * kSteps) * returned((1 - out * out) / (n * n), n, backing);
     }
     return sum;
 }
@@ -119,7 +126,7 @@ double diffuse_reflectance(double refractive_index) {
 wave::Psf halation_psf(const HalationOptions& options, double efl_mm,
                        const wave::KernelGrid& grid) {
     check(options, efl_mm, grid);
-    const Ring ring(options.refractive_index);
+    const Ring ring(options.refractive_index, options.backing);
     const double side = efl_mm / grid.view().focal_length_px() / (2 * options.layer_mm);
     wave::Psf psf;
     psf.grid = grid;
@@ -141,8 +148,7 @@ wave::Psf halation_psf(const HalationOptions& options, double efl_mm,
         std::copy_n(below - half_width, grid.width, psf.kernel.row(half_height - dy, 0));
     });
     const double outside =
-        options.share *
-        energy_outside(ring, (half_width + 0.5) * side, (half_height + 0.5) * side);
+        options.share * energy_outside(ring, (half_width + 0.5) * side, (half_height + 0.5) * side);
     double around = outside;
     for (const double sum : sums) around += sum;
     // What is left is in the middle: the light that stays, and what the ring sends there.

@@ -24,6 +24,7 @@ wave::KernelGrid film_grid(int size, double pixel_mm) {
 TEST(Halation, ReturnsWhatJuddTabulates) {
     EXPECT_NEAR(diffuse_reflectance(1.5), 0.596, 0.001);
     EXPECT_NEAR(diffuse_reflectance(1.0001), 0, 0.001);
+    EXPECT_NEAR(diffuse_reflectance(1.5, 1), 1, 1e-6);
 }
 
 TEST(Halation, HasUnitEnergyAtAnyScale) {
@@ -42,12 +43,13 @@ TEST(Halation, HasUnitEnergyAtAnyScale) {
 TEST(Halation, PixelsAndWhatLiesBeyondAddUp) {
     constexpr double kLayerMm = 0.13;
     for (const double pixel_mm : {0.005, 0.0188}) {
-        const HalationOptions all{.share = 1, .layer_mm = kLayerMm, .refractive_index = 1.5};
+        const HalationOptions all{
+            .share = 1, .layer_mm = kLayerMm, .refractive_index = 1.5, .backing = 0};
         const auto psf = halation_psf(all, kEflMm, film_grid(301, pixel_mm));
         const double t = pixel_mm / (2 * kLayerMm);
         // Straight through: R = ((n - 1) / (n + 1))^2 = .04.
-        EXPECT_NEAR(static_cast<double>(psf.kernel.at(150, 150, 0)),
-                    0.04 / (kPi * 0.596) * t * t, 1e-3)
+        EXPECT_NEAR(static_cast<double>(psf.kernel.at(150, 150, 0)), 0.04 / (kPi * 0.596) * t * t,
+                    1e-3)
             << pixel_mm;
     }
 }
@@ -57,7 +59,8 @@ TEST(Halation, PixelsAndWhatLiesBeyondAddUp) {
 TEST(Halation, IsARingAtTheCriticalAngle) {
     constexpr double kLayerMm = 0.13;
     constexpr double kPixelMm = 0.01;
-    const HalationOptions options{.share = 1, .layer_mm = kLayerMm, .refractive_index = 1.5};
+    const HalationOptions options{
+        .share = 1, .layer_mm = kLayerMm, .refractive_index = 1.5, .backing = 0};
     const auto psf = halation_psf(options, kEflMm, film_grid(401, kPixelMm));
     int brightest = 1;
     for (int x = 1; x < 200; ++x) {
@@ -69,6 +72,19 @@ TEST(Halation, IsARingAtTheCriticalAngle) {
         const double t = radius_mm / (2 * kLayerMm);
         EXPECT_NEAR(1 - encircled(psf, 0, radius_mm / kPixelMm),
                     1 / (1 + t * t) / diffuse_reflectance(1.5), 2e-3)
+            << radius_mm;
+    }
+}
+
+// On a mirror all light comes back: a share 1 / (1 + t^2) of it beyond t, at any radius.
+TEST(Halation, OnAMirrorIsLambertian) {
+    constexpr double kLayerMm = 0.13;
+    constexpr double kPixelMm = 0.01;
+    const HalationOptions options{.share = 1, .layer_mm = kLayerMm, .backing = 1};
+    const auto psf = halation_psf(options, kEflMm, film_grid(401, kPixelMm));
+    for (const double radius_mm : {0.05, 0.1, 0.2, 0.5, 1.8}) {
+        const double t = radius_mm / (2 * kLayerMm);
+        EXPECT_NEAR(1 - encircled(psf, 0, radius_mm / kPixelMm), 1 / (1 + t * t), 2e-3)
             << radius_mm;
     }
 }
@@ -89,6 +105,7 @@ TEST(Halation, SaysWhatIsWrong) {
     EXPECT_THROW(halation_psf({.share = 1.1}, kEflMm, grid), InvalidArgument);
     EXPECT_THROW(halation_psf({.layer_mm = 0}, kEflMm, grid), InvalidArgument);
     EXPECT_THROW(halation_psf({.refractive_index = 1}, kEflMm, grid), InvalidArgument);
+    EXPECT_THROW(halation_psf({.backing = -0.1}, kEflMm, grid), InvalidArgument);
     EXPECT_THROW(halation_psf({}, 0, grid), InvalidArgument);
     EXPECT_THROW(halation_psf({}, kEflMm, film_grid(10, 0.02)), InvalidArgument);
     EXPECT_THROW(halation_psf({}, kEflMm, film_grid(11, 0)), InvalidArgument);

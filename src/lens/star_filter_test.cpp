@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPupilMm = 12;
 constexpr double kPeriodMm = 0.25;
-constexpr double kWire = 0.125;       // of the period
+constexpr double kWire = 0.125;         // of the period
 constexpr double kPixelMm = 1 / 256.0;  // of the picture of the grid
 
 // Wires along both axes, 16 mm of them.

@@ -95,7 +95,8 @@ TEST_F(Passes, FilmThrowsBackItsShare) {
     EXPECT_NEAR(film.at(80, 60, 0), 750, 1);
     EXPECT_GT(film.at(80 + 10, 60, 0), 0);
     EXPECT_TRUE(identical(film, glare(kCamera + " --passes bloom --halation 0.25")));
-    const auto json = report("glare in.exr -o out.exr --passes bloom --halation-layer 0.5" + kCamera);
+    const auto json =
+        report("glare in.exr -o out.exr --passes bloom --halation-layer 0.5" + kCamera);
     EXPECT_EQ(json["parameters"]["halation"], 0.1);
     EXPECT_EQ(json["parameters"]["halation_layer_mm"], 0.5);
     EXPECT_EQ(json["parameters"]["starburst"], false);
@@ -194,7 +195,7 @@ TEST_F(Passes, PsfsAreMadeOnceForPicturesThatSeeTheSame) {
             .get<int>();
     };
     EXPECT_EQ(made(" --observer camera --preset sikachev"), 1);
-    EXPECT_EQ(made(" --preset sikachev" + kPlainEye), 1);  // the eye of the first frame
+    EXPECT_EQ(made(" --preset sikachev" + kPlainEye), 1);   // the eye of the first frame
     EXPECT_EQ(made(" --pupil 4 --fps 24" + kPlainEye), 4);  // an eye that moves
     // Pictures of their own: each has the pupil that its light makes, a camera has none.
     write("a.exr", constant(40, 30, 3, 1));

@@ -35,9 +35,8 @@ TEST_F(Supersampling, IsOfTheMatteToo) {
     write("small.exr", area_average(large, 2));
     write("small-matte.exr", area_average(matte, 2));
     const std::string options = " --fov 40 --pupil 5" + kPlainEye;
-    ASSERT_EQ(run("glare large.exr -o a.exr --supersampling 2 --matte matte.exr" + options)
-                  .exit_code,
-              0);
+    ASSERT_EQ(
+        run("glare large.exr -o a.exr --supersampling 2 --matte matte.exr" + options).exit_code, 0);
     ASSERT_EQ(run("glare small.exr -o b.exr --matte small-matte.exr" + options).exit_code, 0);
     EXPECT_TRUE(identical(read("a.exr").image(), read("b.exr").image()));
     const Outcome other = run("glare large.exr -o c.exr --supersampling 2 --matte small-matte.exr");

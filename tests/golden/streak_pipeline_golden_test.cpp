@@ -69,8 +69,8 @@ const Picture& lamps() {
                         if (std::hypot(x - lamp.x, y - lamp.y) < lamp.radius) value = lamp.color[c];
                     }
                     // The sign leans by 1 in 3.
-                    const bool sign = std::abs(3 * (y - 110) - (x - 205)) < 15 &&
-                                      std::abs(x - 205) < 30;
+                    const bool sign =
+                        std::abs(3 * (y - 110) - (x - 205)) < 15 && std::abs(x - 205) < 30;
                     if (sign) value = c == 0 ? 80.0F : 20.0F;
                     rgb.at(x, y, static_cast<int>(c)) = value;
                 }
@@ -157,13 +157,11 @@ TEST(StreakPipelineGolden, Figure12StreaksAndBloom) {
 }
 
 TEST(StreakPipelineGolden, Figure13ClustersOfOnePixel) {
-    EXPECT_TRUE(golden::matches("sikachev-13-cluster-1", clustered_streaks(1),
-                                kTolerance));
+    EXPECT_TRUE(golden::matches("sikachev-13-cluster-1", clustered_streaks(1), kTolerance));
 }
 
 TEST(StreakPipelineGolden, Figure14ClustersOfTwoPixels) {
-    EXPECT_TRUE(golden::matches("sikachev-14-cluster-2", clustered_streaks(2),
-                                kTolerance));
+    EXPECT_TRUE(golden::matches("sikachev-14-cluster-2", clustered_streaks(2), kTolerance));
 }
 
 TEST(StreakPipelineGolden, Figure15Eyelashes) {
