@@ -91,10 +91,9 @@ TEST_F(Passes, ThresholdAndMethodAreOfStreaks) {
 // Halation moves its share of a light, no more and no less.
 TEST_F(Passes, FilmThrowsBackItsShare) {
     write("in.exr", point(161, 121, 3, 80, 60, 1000));
-    const Image film = glare(kCamera + " --passes bloom --halation 0.25");
+    const Image film = glare(kCamera + " --passes bloom --halation 0.25 --halation-backing 0");
     EXPECT_NEAR(film.at(80, 60, 0), 750, 1);
     EXPECT_GT(film.at(80 + 10, 60, 0), 0);
-    EXPECT_TRUE(identical(film, glare(kCamera + " --passes bloom --halation 0.25")));
     const auto json =
         report("glare in.exr -o out.exr --passes bloom --halation-layer 0.5" + kCamera);
     EXPECT_EQ(json["parameters"]["halation"], 0.1);
