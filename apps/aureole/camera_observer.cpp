@@ -23,13 +23,13 @@ double flare_energy(const lens::FlareReport& report) {
 }  // namespace
 
 CameraObserver::CameraObserver(const CameraOptions& camera, const GhostOptions& ghosts,
-                               const LightOptions& lights, const ViewOptions& view, bool starburst,
-                               Session& session)
+                               const LightOptions& lights, const ViewOptions& view,
+                               const CameraSpread& spread, Session& session)
     : camera_options_(camera),
       ghost_options_(ghosts),
       light_options_(lights),
       view_options_(view),
-      starburst_(starburst),
+      spread_(spread),
       session_(session),
       camera_(camera.camera(session)),
       flare_options_(ghosts.options(camera_.lens)) {}
@@ -60,19 +60,29 @@ View CameraObserver::view_of(const io::Picture& picture) {
     return view;
 }
 
-std::optional<wave::Psf> CameraObserver::psf(const View& /*display*/, const View& data) {
-    if (!starburst_) return std::nullopt;
-    return lens::starburst_psf(camera_.iris, camera_.entrance_pupil_mm(),
-                               wave::KernelGrid::full_reach(data), {}, camera_.dirt(), &session_);
+Spreading CameraObserver::spreading(const View& /*display*/, const View& data) {
+    if (!spread_.starburst) return {};
+    const wave::KernelGrid grid = wave::KernelGrid::full_reach(data);
+    Spreading result;
+    if (spread_.passes != Passes::kBloom) {
+        (spread_.passes == Passes::kOne ? result.rest : result.streaks) = lens::starburst_psf(
+            camera_.iris, camera_.entrance_pupil_mm(), grid, {}, camera_.dirt(), &session_);
+    }
+    if (spread_.passes == Passes::kBoth || spread_.passes == Passes::kBloom) {
+        result.rest = lens::halation_psf(spread_.halation, camera_.lens.efl_mm(), grid);
+    }
+    return result;
 }
 
 void CameraObserver::plan(const View& data) {
+    if (!ghost_options_.any()) return;
     flare_.emplace(camera_.lens, camera_.iris, data, flare_options_, camera_.dirt());
     ghosts_ = Image(data.width, data.height, 3);
 }
 
 const Image* CameraObserver::ghosts(const io::Picture& picture, const View& display,
                                     const View& data, const float* matte) {
+    if (!ghost_options_.any()) return nullptr;
     display_ = display;
     session_.timed("lights", [&] {
         lights_ = light_options_.lights(picture, display, data, matte, session_);
@@ -96,8 +106,15 @@ void CameraObserver::report(nlohmann::ordered_json& json) const {
     auto& parameters = json["parameters"];
     parameters.update(camera_options_.report(camera_));
     parameters["lens_fov_deg"] = lens_field_deg_;
-    parameters["starburst"] = starburst_;
+    parameters["starburst"] = spread_.starburst && spread_.passes != Passes::kBloom;
+    if (spread_.passes == Passes::kBoth || spread_.passes == Passes::kBloom) {
+        parameters["halation"] = spread_.halation.share;
+        parameters["halation_layer_mm"] = spread_.halation.layer_mm;
+        parameters["halation_index"] = spread_.halation.refractive_index;
+        parameters["halation_backing"] = spread_.halation.backing;
+    }
     parameters.update(ghost_options_.report(flare_options_));
+    if (!ghost_options_.any()) return;
     parameters.update(light_options_.report());
     if (lights_.searched) parameters["light_threshold"] = lights_.search.threshold;
     json["lights"] = report_of(lights_, display_);

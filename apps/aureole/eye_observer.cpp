@@ -19,6 +19,22 @@ double metered_cd_m2(const io::Picture& picture, double white_luminance_cd_m2) {
                      white_luminance_cd_m2;
 }
 
+Spreading spreading_of(const eye::Eye& eye, Passes passes, const View& data,
+                       const eye::SpectralSampling& sampling, Session& session) {
+    const wave::KernelGrid grid = wave::KernelGrid::full_reach(data);
+    eye::EyePsfOptions options;
+    options.spectral = sampling;
+    Spreading result;
+    if (passes == Passes::kBoth || passes == Passes::kStreaks) {
+        result.streaks = eye::streaks_psf(eye, grid, options, &session);
+    }
+    if (passes == Passes::kStreaks) return result;
+    eye::Eye behind_lashes = eye;
+    if (passes != Passes::kOne) behind_lashes.streaks = 0;
+    result.rest = eye::eye_psf(behind_lashes, grid, options, &session);
+    return result;
+}
+
 double EyeObserver::adaptation_to(const io::Picture& picture) const {
     if (!options_.needs_adaptation()) return 0;
     if (metering_ == Metering::kFirst && metered_cd_m2_) return *metered_cd_m2_;
@@ -33,11 +49,9 @@ bool EyeObserver::adapt(const io::Picture& picture) {
     return same;
 }
 
-std::optional<wave::Psf> EyeObserver::psf(const View& display, const View& data) {
+Spreading EyeObserver::spreading(const View& display, const View& data) {
     eye_ = options_.eye(*metered_cd_m2_, display);
-    eye::EyePsfOptions options;
-    options.spectral = options_.sampling();
-    return eye::eye_psf(eye_, wave::KernelGrid::full_reach(data), options, &session_);
+    return spreading_of(eye_, passes_, data, options_.sampling(), session_);
 }
 
 std::optional<wave::VaryingPsf> EyeObserver::varying_psf(const View& display, const View& data) {
@@ -111,8 +125,8 @@ View KernelObserver::view_of(const io::Picture& picture) {
     return view_.view_of(picture, session_);
 }
 
-std::optional<wave::Psf> KernelObserver::psf(const View& /*display*/, const View& data) {
-    return read_kernel(file_, data);
+Spreading KernelObserver::spreading(const View& /*display*/, const View& data) {
+    return {.streaks = std::nullopt, .rest = read_kernel(file_, data)};
 }
 
 void KernelObserver::report(nlohmann::ordered_json& json) const {

@@ -10,6 +10,7 @@
 #include "eye_options.h"
 #include "observer.h"
 #include "session.h"
+#include "spread_options.h"
 #include "view_options.h"
 
 namespace aureole::app {
@@ -24,20 +25,25 @@ enum class Metering {
 // mean.
 double metered_cd_m2(const io::Picture& picture, double white_luminance_cd_m2);
 
+// The PSFs of an eye for pictures whose data window is seen as `data`.
+Spreading spreading_of(const eye::Eye& eye, Passes passes, const View& data,
+                       const eye::SpectralSampling& sampling, Session& session);
+
 class EyeObserver : public Observer {
   public:
     // `field_spacing_deg`: between nodes at which streaks are computed; 0: the axis serves for all.
-    EyeObserver(const EyeOptions& eye, const ViewOptions& view, Metering metering,
+    EyeObserver(const EyeOptions& eye, const ViewOptions& view, Metering metering, Passes passes,
                 double field_spacing_deg, Session& session)
         : options_(eye),
           view_(view),
           metering_(metering),
+          passes_(passes),
           field_spacing_deg_(field_spacing_deg),
           session_(session) {}
 
     View view_of(const io::Picture& picture) override { return view_.view_of(picture, session_); }
     bool adapt(const io::Picture& picture) override;
-    std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    Spreading spreading(const View& display, const View& data) override;
     std::optional<wave::VaryingPsf> varying_psf(const View& display, const View& data) override;
     void report(nlohmann::ordered_json& json) const override;
 
@@ -48,6 +54,7 @@ class EyeObserver : public Observer {
     const EyeOptions& options_;
     const ViewOptions& view_;
     Metering metering_;
+    Passes passes_;
     double field_spacing_deg_;
     Session& session_;
     std::optional<double> metered_cd_m2_;
@@ -62,7 +69,7 @@ class KernelObserver : public Observer {
         : file_(std::move(file)), view_(view), session_(session) {}
 
     View view_of(const io::Picture& picture) override;
-    std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    Spreading spreading(const View& display, const View& data) override;
     void report(nlohmann::ordered_json& json) const override;
 
   private:

@@ -6,7 +6,9 @@
 #include "camera_observer.h"
 #include "commands.h"
 #include "eye_observer.h"
+#include "film_options.h"
 #include "frame_files.h"
+#include "glare_preset.h"
 #include "living_eye_observer.h"
 #include "motion_options.h"
 #include "option_checks.h"
@@ -17,11 +19,20 @@ namespace {
 
 constexpr const char* kFallbackLens = "heliar";
 
+// Unless `option` is empty.
+void refuse(const std::string& option, const std::string& why) {
+    if (!option.empty()) throw InvalidArgument(option + ": " + why);
+}
+
 struct GlareCommand {
     void add_options(CLI::App& command);
     void run();
     void check();
+    void check_camera();
+    void check_eye();
     std::unique_ptr<Observer> observer();
+
+    CLI::App* command_line = nullptr;
 
     Session session;
     PictureSettings settings;
@@ -30,6 +41,7 @@ struct GlareCommand {
     EyeOptions eye;
     MotionOptions motion;
     CameraOptions camera;
+    FilmOptions film;
     GhostOptions ghosts;
     LightOptions lights;
     std::vector<std::string> inputs;
@@ -43,6 +55,7 @@ struct GlareCommand {
 };
 
 void GlareCommand::add_options(CLI::App& command) {
+    command_line = &command;
     command
         .add_option("INPUT", inputs,
                     "Linear HDR pictures, or a numbered sequence (shot.%04d.exr, shot.####.exr) "
@@ -60,12 +73,16 @@ void GlareCommand::add_options(CLI::App& command) {
                               "iris, and the ghosts of a lens"),
            {"eye", "camera"})
         ->capture_default_str();
-    preset_option =
-        one_of(command.add_option("--preset", preset,
-                                  "physical: as measured; vivid (eye): what people say they see "
-                                  "(corona contrast 2.5 to 4, streaks x1.5); blog (camera): ghosts "
-                                  "as drawn by a game, faded polygons of one colour each"),
-               {"physical", "vivid", "blog"});
+    preset_option = one_of(
+        command.add_option(
+            "--preset", preset,
+            "physical: as measured; vivid (eye): what people say they see "
+            "(corona contrast 2.5 to 4, streaks x1.5); sikachev: streaks of "
+            "what is brighter than 1, as clusters, then bloom (--passes both "
+            "--method sprites --cluster-error 0.001 --threshold 1 --tone-map "
+            "xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): ghosts as "
+            "drawn by a game, faded polygons of one colour each"),
+        {"physical", "vivid", "sikachev", "blog"});
     preset_option->capture_default_str();
     view.add_options(command, "60, or the lens's for a camera");
     view.add_white_luminance_option(command);
@@ -87,15 +104,13 @@ void GlareCommand::add_options(CLI::App& command) {
     eye.add_options_but_preset(command);
     motion.add_options(command);
     camera.add_options(command, kFallbackLens);
+    film.add_options(command);
     lights.add_options(command);
     ghosts.add_options(command);
     session.add_options(command);
 }
 
 void GlareCommand::check() {
-    const auto refuse = [](const std::string& option, const std::string& why) {
-        if (!option.empty()) throw InvalidArgument(option + ": " + why);
-    };
     view.check();
     spread.check();
     field_spacing_deg = field_varying == "on"    ? eye::FieldPsfOptions().spacing_deg
@@ -118,24 +133,35 @@ void GlareCommand::check() {
         alone(motion.first_given());
     }
     if (observer_name == "camera") {
-        refuse(eye.first_given(), "is an option of the eye: leave it out with --observer camera");
-        refuse(motion.first_given(),
-               "is an option of the eye: leave it out with --observer camera");
-        refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
-        refuse(view.white_luminance_given() ? "--white-luminance" : "",
-               "matters for the eye's pupil only: leave it out with --observer camera");
-        refuse(preset == "vivid" ? "--preset vivid" : "", "needs --observer eye");
-        ghosts.set_preset(preset);
-        ghosts.check();
-        lights.check();
-        return;
+        check_camera();
+    } else {
+        check_eye();
     }
+}
+
+void GlareCommand::check_camera() {
+    refuse(eye.first_given(), "is an option of the eye: leave it out with --observer camera");
+    refuse(motion.first_given(), "is an option of the eye: leave it out with --observer camera");
+    refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
+    refuse(view.white_luminance_given() ? "--white-luminance" : "",
+           "matters for the eye's pupil only: leave it out with --observer camera");
+    refuse(preset == "vivid" ? "--preset vivid" : "", "needs --observer eye");
+    const Passes passes = spread.passes();
+    refuse(passes == Passes::kOne || passes == Passes::kStreaks ? film.first_given() : "",
+           "needs --passes both or bloom");
+    ghosts.set_preset(preset);
+    ghosts.check();
+    refuse(ghosts.any() ? "" : lights.first_given(), "has no effect with --ghosts none");
+    lights.check();
+}
+
+void GlareCommand::check_eye() {
     for (const std::string& option :
-         {camera.first_given(), lights.first_given(), ghosts.first_given()}) {
+         {camera.first_given(), film.first_given(), lights.first_given(), ghosts.first_given()}) {
         refuse(option, "is an option of the camera: needs --observer camera");
     }
     refuse(preset == "blog" ? "--preset blog" : "", "needs --observer camera");
-    eye.set_preset(preset);
+    eye.set_preset(preset == "vivid" ? "vivid" : "physical");
     eye.check();
     motion.check();
     if (!motion.alive()) {
@@ -153,17 +179,23 @@ void GlareCommand::check() {
     if (!option.empty()) {
         throw InvalidArgument("--psf", psf_file, "replaces the eye: leave out " + option);
     }
+    refuse(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name,
+           "needs an eye or a camera: leave out --psf");
 }
 
 std::unique_ptr<Observer> GlareCommand::observer() {
     if (observer_name == "camera") {
-        constexpr bool kStarburst = true;
-        return std::make_unique<CameraObserver>(camera, ghosts, lights, view, kStarburst, session);
+        return std::make_unique<CameraObserver>(
+            camera, ghosts, lights, view,
+            CameraSpread{.passes = spread.passes(), .halation = film.halation()}, session);
     }
     if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
-    if (motion.alive()) return std::make_unique<LivingEyeObserver>(eye, motion, view, session);
+    if (motion.alive()) {
+        return std::make_unique<LivingEyeObserver>(eye, motion, view, spread.passes(), session);
+    }
     const Metering metering = frames.empty() ? Metering::kEachPicture : Metering::kFirst;
-    return std::make_unique<EyeObserver>(eye, view, metering, field_spacing_deg, session);
+    return std::make_unique<EyeObserver>(eye, view, metering, spread.passes(), field_spacing_deg,
+                                         session);
 }
 
 void GlareCommand::run() {
@@ -171,6 +203,7 @@ void GlareCommand::run() {
     std::vector<FrameFiles> list =
         frame_files(inputs, settings.output.paths(), settings.side_by_side_file, frames);
     for (FrameFiles& frame : list) frame.time_s = motion.time_s(frame.number);
+    apply_preset(preset, observer_name, *command_line);
     settings.prepare(list);
     check();
     ghosts.check_pictures(list.size());
@@ -178,7 +211,9 @@ void GlareCommand::run() {
     PictureJob job(settings, spread, *who, session);
     job.process(list);
     const std::string summary = job.report();
-    session.json()["parameters"]["observer"] = observer_name;
+    auto& parameters = session.json()["parameters"];
+    parameters["observer"] = observer_name;
+    if (psf_file.empty()) parameters["preset"] = preset;
     session.finish(summary);
 }
 

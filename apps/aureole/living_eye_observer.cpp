@@ -1,7 +1,6 @@
 #include "living_eye_observer.h"
 
 #include "aureole/base/error.h"
-#include "aureole/eye/eye_psf.h"
 #include "eye_observer.h"
 #include "number_table.h"
 
@@ -20,8 +19,8 @@ eye::LuminanceCurve curve_from(const std::string& file) {
 }  // namespace
 
 LivingEyeObserver::LivingEyeObserver(const EyeOptions& eye, const MotionOptions& motion,
-                                     const ViewOptions& view, Session& session)
-    : options_(eye), motion_(motion), view_options_(view), session_(session) {
+                                     const ViewOptions& view, Passes passes, Session& session)
+    : options_(eye), motion_(motion), view_options_(view), passes_(passes), session_(session) {
     motion_.apply(settings_, options_.seed());
     if (!options_.adaptation_file().empty()) adaptation_ = curve_from(options_.adaptation_file());
     // What can be wrong with the settings is found before any picture is read.
@@ -47,11 +46,9 @@ bool LivingEyeObserver::adapt(const io::Picture& picture) {
     return false;
 }
 
-std::optional<wave::Psf> LivingEyeObserver::psf(const View& /*display*/, const View& data) {
-    if (moment_.closed) return std::nullopt;
-    eye::EyePsfOptions options;
-    options.spectral = options_.sampling();
-    return eye::eye_psf(moment_.eye, wave::KernelGrid::full_reach(data), options, &session_);
+Spreading LivingEyeObserver::spreading(const View& /*display*/, const View& data) {
+    if (moment_.closed) return {};
+    return spreading_of(moment_.eye, passes_, data, options_.sampling(), session_);
 }
 
 void LivingEyeObserver::report(nlohmann::ordered_json& json) const {

@@ -8,6 +8,7 @@
 #include "motion_options.h"
 #include "observer.h"
 #include "session.h"
+#include "spread_options.h"
 #include "view_options.h"
 
 namespace aureole::app {
@@ -18,12 +19,12 @@ class LivingEyeObserver : public Observer {
   public:
     // Reads the files that the options name. Throws FileError, InvalidArgument.
     LivingEyeObserver(const EyeOptions& eye, const MotionOptions& motion, const ViewOptions& view,
-                      Session& session);
+                      Passes passes, Session& session);
 
     void set_time(double time_s) override { time_s_ = time_s; }
     View view_of(const io::Picture& picture) override;
     bool adapt(const io::Picture& picture) override;
-    std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    Spreading spreading(const View& display, const View& data) override;
     double light_share() const override { return moment_.light_share; }
     void report(nlohmann::ordered_json& json) const override;
 
@@ -31,6 +32,7 @@ class LivingEyeObserver : public Observer {
     const EyeOptions& options_;
     const MotionOptions& motion_;
     const ViewOptions& view_options_;
+    Passes passes_;
     Session& session_;
     eye::MotionSettings settings_;
     std::optional<eye::LuminanceCurve> adaptation_;  // none: each picture's own

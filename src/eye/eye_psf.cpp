@@ -179,6 +179,30 @@ wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOpti
     return psf;
 }
 
+wave::Psf streaks_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOptions& options,
+                      Progress* progress) {
+    check(eye);
+    check_kernel(grid);
+    check_aperture(options.aperture);
+    Components components(eye, grid, options, progress, nullptr);
+    const auto parts = components.corona_and_streaks(false, eye.streaks > 0 && eye.eyelashes > 0);
+    const double share =
+        parts.streaks ? std::min(parts.blocked_share * eye.streaks, kMostDiffractedShare) : 0;
+    wave::Psf psf;
+    psf.grid = grid;
+    psf.kernel = Image(grid.width, grid.height, 3);
+    if (parts.streaks) {
+        add_patch(psf.kernel, components.patch(), *parts.streaks, {share, share, share});
+        psf.off_kernel_energy = energy_outside(*parts.streaks);
+        for (double& energy : psf.off_kernel_energy) energy *= share;
+    }
+    for (int c = 0; c < 3; ++c) {
+        psf.kernel.at(grid.width / 2, grid.height / 2, c) += static_cast<float>(1 - share);
+    }
+    if (progress != nullptr) progress->report("eye psf", 1);
+    return psf;
+}
+
 wave::Psf eye_component(Component component, const Eye& eye, const wave::KernelGrid& grid,
                         const EyePsfOptions& options, Progress* progress) {
     check(eye);

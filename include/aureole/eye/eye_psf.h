@@ -64,6 +64,17 @@ struct EyePsfTimings {
 wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOptions& options = {},
                   Progress* progress = nullptr, EyePsfTimings* timings = nullptr);
 
+// What lashes do to light before it gets into the eye, alone:
+//
+//     (1 - w_e) delta + w_e E
+//
+// of unit energy, for effects that take streaks and bloom one after the other. Applied before the
+// eye_psf() of the same eye without lashes, it makes of a point the streaks and the veil around
+// them: where eye_psf() adds E, this way E is scattered as well. w_e is at most half.
+// Only the source's own pixel is lit if no lash lies before the pupil.
+wave::Psf streaks_psf(const Eye& eye, const wave::KernelGrid& grid,
+                      const EyePsfOptions& options = {}, Progress* progress = nullptr);
+
 // One component alone, of unit energy over all directions.
 enum class Component {
     kBloom,    // Airy pattern of the pupil (and lid): what diffraction alone does
