@@ -11,6 +11,7 @@
 #include "motion_options.h"
 #include "option_checks.h"
 #include "picture_job.h"
+#include "thesis_observer.h"
 
 namespace aureole::app {
 namespace {
@@ -21,6 +22,7 @@ struct GlareCommand {
     void add_options(CLI::App& command);
     void run();
     void check();
+    void check_thesis();
     std::unique_ptr<Observer> observer();
 
     Session session;
@@ -60,12 +62,14 @@ void GlareCommand::add_options(CLI::App& command) {
                               "iris, and the ghosts of a lens"),
            {"eye", "camera"})
         ->capture_default_str();
-    preset_option =
-        one_of(command.add_option("--preset", preset,
-                                  "physical: as measured; vivid (eye): what people say they see "
-                                  "(corona contrast 2.5 to 4, streaks x1.5); blog (camera): ghosts "
-                                  "as drawn by a game, faded polygons of one colour each"),
-               {"physical", "vivid", "blog"});
+    preset_option = one_of(
+        command.add_option("--preset", preset,
+                           "physical: as measured; vivid (eye): what people say they see "
+                           "(corona contrast 2.5 to 4, streaks x1.5); thesis (eye): the look "
+                           "of \"Physically-based Real-time Glare\": bright pixels only, "
+                           "saturated needles, halo and streaks, added; blog (camera): ghosts "
+                           "as drawn by a game, faded polygons of one colour each"),
+        {"physical", "vivid", "thesis", "blog"});
     preset_option->capture_default_str();
     view.add_options(command, "60, or the lens's for a camera");
     view.add_white_luminance_option(command);
@@ -124,7 +128,8 @@ void GlareCommand::check() {
         refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
         refuse(view.white_luminance_given() ? "--white-luminance" : "",
                "matters for the eye's pupil only: leave it out with --observer camera");
-        refuse(preset == "vivid" ? "--preset vivid" : "", "needs --observer eye");
+        refuse(preset == "vivid" || preset == "thesis" ? "--preset " + preset : "",
+               "needs --observer eye");
         ghosts.set_preset(preset);
         ghosts.check();
         lights.check();
@@ -135,6 +140,10 @@ void GlareCommand::check() {
         refuse(option, "is an option of the camera: needs --observer camera");
     }
     refuse(preset == "blog" ? "--preset blog" : "", "needs --observer camera");
+    if (preset == "thesis") {
+        check_thesis();
+        return;
+    }
     eye.set_preset(preset);
     eye.check();
     motion.check();
@@ -155,12 +164,31 @@ void GlareCommand::check() {
     }
 }
 
+void GlareCommand::check_thesis() {
+    const auto alone = [](const std::string& option) {
+        if (!option.empty()) {
+            throw InvalidArgument("--preset thesis: cannot be combined with " + option);
+        }
+    };
+    alone(psf_file.empty() ? "" : "--psf");
+    alone(field_spacing_deg == 0 ? "" : "--field-varying");
+    alone(spread.surround == "dark" ? "" : "--surround " + spread.surround);
+    if (frames.empty()) motion.check();
+    eye.check();
+    eye.set_default_pupil_model("thesis");
+    spread.set_thesis_look();
+}
+
 std::unique_ptr<Observer> GlareCommand::observer() {
     if (observer_name == "camera") {
         constexpr bool kStarburst = true;
         return std::make_unique<CameraObserver>(camera, ghosts, lights, view, kStarburst, session);
     }
     if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
+    if (preset == "thesis") {
+        const bool moving = motion.alive() || !frames.empty();
+        return std::make_unique<ThesisObserver>(eye, motion, view, moving, session);
+    }
     if (motion.alive()) return std::make_unique<LivingEyeObserver>(eye, motion, view, session);
     const Metering metering = frames.empty() ? Metering::kEachPicture : Metering::kFirst;
     return std::make_unique<EyeObserver>(eye, view, metering, field_spacing_deg, session);
@@ -170,7 +198,11 @@ void GlareCommand::run() {
     session.start();
     std::vector<FrameFiles> list =
         frame_files(inputs, settings.output.paths(), settings.side_by_side_file, frames);
-    for (FrameFiles& frame : list) frame.time_s = motion.time_s(frame.number);
+    const bool turns_pages = preset == "thesis" && !motion.alive();
+    for (FrameFiles& frame : list) {
+        frame.time_s =
+            turns_pages ? ThesisObserver::time_of_frame(frame.number) : motion.time_s(frame.number);
+    }
     settings.prepare(list);
     check();
     ghosts.check_pictures(list.size());

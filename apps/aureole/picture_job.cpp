@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
+#include "aureole/color/tone_curve.h"
+#include "aureole/eye/thesis_glare.h"
 #include "aureole/image/finite.h"
 #include "layers.h"
 #include "option_checks.h"
@@ -97,15 +100,18 @@ void SpreadSettings::add_options(CLI::App& group) {
                            1e-6, 0.5)
                         ->type_name("E")
                         ->capture_default_str();
-    number(group.add_option("--threshold", threshold,
-                            "Pixel values below make no glare (continuous ramp); 0 is physical"),
-           0, 1e30)
-        ->type_name("V")
-        ->capture_default_str();
-    number(group.add_option("--gain", gain, "Scales the scattered light; 1 conserves energy"), 0,
-           1e6)
-        ->type_name("G")
-        ->capture_default_str();
+    threshold_option_ =
+        number(
+            group.add_option("--threshold", threshold,
+                             "Pixel values below make no glare (continuous ramp); 0 is physical"),
+            0, 1e30)
+            ->type_name("V")
+            ->capture_default_str();
+    gain_option_ =
+        number(group.add_option("--gain", gain, "Scales the scattered light; 1 conserves energy"),
+               0, 1e6)
+            ->type_name("G")
+            ->capture_default_str();
     one_of(group.add_option("--surround", surround,
                             "What lies beyond the border. dark: nothing, borders lose light; same: "
                             "for each pixel surroundings as bright as itself"),
@@ -120,14 +126,27 @@ void SpreadSettings::check() const {
     }
 }
 
-glare::GlareOptions SpreadSettings::options(bool matte) const {
+void SpreadSettings::set_thesis_look() {
+    if (threshold_option_->count() == 0) threshold = eye::kThesisThreshold;
+    if (gain_option_->count() == 0) gain = eye::kThesisFinalGain;
+    source_tone_map = "hill";
+    source_factor = eye::kThesisSourceFactor;
+    added = true;
+}
+
+glare::GlareOptions SpreadSettings::options(bool matte, double exposure_ev) const {
     glare::GlareOptions options;
     options.method = glare::method_from_name(method);
     options.cluster_error = cluster_error;
-    options.threshold = threshold;
-    options.gain = gain;
+    options.threshold = static_cast<float>(threshold);
+    options.gain = static_cast<float>(source_factor * gain);
     options.matte = matte;
     options.surround = glare::surround_from_name(surround);
+    options.added = added;
+    if (source_tone_map != "none") {
+        options.source_curve = color::tone_curve_from_name(source_tone_map);
+        options.exposure_scale = static_cast<float>(std::exp2(exposure_ev));
+    }
     return options;
 }
 
@@ -144,7 +163,8 @@ void PictureJob::prepare(const io::Picture& picture) {
     const int channels = picture.color_channels();
     const bool adapted = observer_.adapt(picture);
     if (prepared_ && adapted && same_view(prepared_->view, view) &&
-        same_view(prepared_->display, display) && prepared_->channels == channels) {
+        same_view(prepared_->display, display) && prepared_->channels == channels &&
+        (prepared_->exposure_ev == exposure_ev_ || spread_.source_tone_map == "none")) {
         return;
     }
     prepared_.reset();
@@ -155,11 +175,14 @@ void PictureJob::prepare(const io::Picture& picture) {
         if (!varying) psf = observer_.psf(display, view);
     });
     session_.timed("plan", [&] {
-        prepared_.emplace(Prepared{display, view, channels, std::nullopt, std::nullopt});
+        prepared_.emplace(
+            Prepared{display, view, channels, exposure_ev_, std::nullopt, std::nullopt});
         if (varying) prepared_->varying.emplace(channels, *varying);
         if (psf) {
-            prepared_->glare.emplace(view, channels, *psf,
-                                     spread_.options(!settings_.matte_file.empty()));
+            glare::GlareOptions options =
+                spread_.options(!settings_.matte_file.empty(), exposure_ev_);
+            options.gain *= static_cast<float>(observer_.gain());
+            prepared_->glare.emplace(view, channels, *psf, options);
         }
         observer_.plan(view);
     });
@@ -204,6 +227,7 @@ void PictureJob::spread(const ConstImageView& in, const float* matte) {
         energy_.off_picture += share * energy.off_picture;
         energy_.blocked += (1 - share) * (energy.in + energy.from_surround);
         energy_.from_surround += energy.from_surround;
+        energy_.added += energy.added;
     } else {
         session_.timed("apply", [&] { result_ = copy(in); });
         const double energy = energy_of(in, view, solid_angles_);
@@ -303,6 +327,7 @@ std::string PictureJob::report() {
     json["energy"] = {
         {"in", energy_.in}, {"out", energy_.out}, {"off_picture", energy_.off_picture}};
     if (energy_.from_surround != 0) json["energy"]["from_surround"] = energy_.from_surround;
+    if (energy_.added != 0) json["energy"]["added"] = energy_.added;
     if (energy_.blocked != 0) json["energy"]["blocked"] = energy_.blocked;
     if (has_ghosts_) json["energy"]["ghosts"] = energy_.ghosts;
     if (last.glare) report_method(last.glare->last(), json);
@@ -326,7 +351,10 @@ std::string PictureJob::report() {
                            {"cluster_error", spread_.cluster_error},
                            {"threshold", spread_.threshold},
                            {"gain", spread_.gain},
-                           {"surround", spread_.surround}});
+                           {"surround", spread_.surround},
+                           {"source_tone_map", spread_.source_tone_map},
+                           {"source_factor", spread_.source_factor},
+                           {"composite", spread_.added ? "added" : "conserving"}});
     }
     if (last.varying) {
         parameters.update({{"padded_width", last.varying->padded_width()},
@@ -339,7 +367,10 @@ std::string PictureJob::report() {
     const auto percent = [&](double energy) {
         return energy_.in > 0 ? 100 * energy / energy_.in : 0.0;
     };
-    if (last.spreads()) {
+    if (energy_.added != 0) {
+        summary += fmt::format("glare added {:.3g} % to the light of the picture;",
+                               percent(energy_.added));
+    } else if (last.spreads()) {
         summary += fmt::format("glare moved {:.2f} % of the light out of the picture;",
                                percent(energy_.off_picture));
     }

@@ -38,19 +38,28 @@ struct SpreadSettings {
     void add_options(CLI::App& group);
     // After parsing. Throws InvalidArgument for options that have no effect on this method.
     void check() const;
-    glare::GlareOptions options(bool matte) const;
+    // Exposure matters where a tone curve decides what light is.
+    glare::GlareOptions options(bool matte, double exposure_ev) const;
+    // ACES and a threshold decide what light is, glare is added; what was given stays.
+    void set_thesis_look();
     // The first option in force that a kernel that varies over the picture does not know, or
     // nothing.
     std::string first_selective() const;
 
     std::string method = "fft";
     double cluster_error = 0.01;
-    float threshold = 0;
-    float gain = 1;
+    double threshold = 0;
+    double gain = 1;
     std::string surround = "dark";
+    // Of looks only.
+    std::string source_tone_map = "none";
+    double source_factor = 1;  // beside the gain
+    bool added = false;
 
   private:
     CLI::Option* error_option_ = nullptr;
+    CLI::Option* threshold_option_ = nullptr;
+    CLI::Option* gain_option_ = nullptr;
 };
 
 // Pictures one after another; PSF and transforms are kept as long as the view and the eye stay.
@@ -71,6 +80,7 @@ class PictureJob {
         View display;  // of the display window
         View view;     // of the data window: all of it makes glare
         int channels;
+        double exposure_ev;
         std::optional<glare::Glare> glare;
         std::optional<glare::VaryingGlare> varying;
 
