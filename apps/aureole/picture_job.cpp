@@ -17,6 +17,9 @@
 namespace aureole::app {
 namespace {
 
+// A look that adds more than this share of a picture's light has whitened it.
+constexpr double kMuchAdded = 0.5;
+
 using Reason = glare::MethodReport::Reason;
 
 bool same_view(const View& a, const View& b) {
@@ -322,6 +325,12 @@ void PictureJob::write(const FrameFiles& files, const io::Picture& picture) {
 
 std::string PictureJob::report() {
     auto& json = session_.json();
+    if (energy_.added > kMuchAdded * energy_.in) {
+        session_.note(
+            fmt::format("glare adds {:.2g} times the light of the picture (--gain, now {:g}, or "
+                        "--exposure scale it)",
+                        energy_.added / energy_.in, spread_.gain));
+    }
     const Prepared& last = *prepared_;
     json["outputs"] = written_;
     json["energy"] = {

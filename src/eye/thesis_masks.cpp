@@ -17,14 +17,15 @@ enum Stream : std::uint64_t { kParticleStream = 1, kLashStream };
 
 // The thesis gives numbers and no sizes. These were chosen by eye, for patterns that reach the
 // ends of the texture under the thresholds of its table.
-constexpr double kLensRadiusMm = 4.5;
-constexpr double kGratingsFromMm = 3.2;  // nothing up to here ...
-constexpr double kGratingsFullMm = 4.2;  // ... and everything from here to the edge of the lens
+constexpr double kGratingsFromMm = 3.5;  // nothing up to here ...
+constexpr double kGratingsFullMm = 4.2;  // ... everything here, and nothing again ...
+constexpr double kLensRadiusMm = 4.7;    // ... at the edge of the lens
 constexpr double kParticleDiscMm = 4.2;
 constexpr double kSmallestParticleMm = 0.03;
 constexpr double kLargestParticleMm = 0.1;
+constexpr float kParticleGrey = 0.3F;  // of white; brighter ones pass the threshold everywhere
 constexpr double kParticleOrbitMm = 0.15;
-// Lashes, within a window that fades out: an edge would make streaks of its own.
+// Lashes, within a window that fades out.
 constexpr double kLashWindowMm = 4.5;
 constexpr double kLashWindowFadeMm = 1.5;
 constexpr double kLashWidthMm = 0.09;
@@ -33,6 +34,19 @@ constexpr double kLashAngleDeg = 15;  // section 2.4: 10 to 30, about the vertic
 double smoothstep(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return t * t * (3 - 2 * t);
+}
+
+// Nothing beyond the outer radius; an edge would make a pattern of its own.
+void fade_out(wave::Mask& mask, double inner_mm, double outer_mm) {
+    const int n = mask.grid.samples;
+    parallel_for(static_cast<std::size_t>(n), [&](std::size_t j, int) {
+        float* row = mask.row(static_cast<int>(j));
+        const double y_mm = mask.grid.y_mm(static_cast<int>(j));
+        for (int i = 0; i < n; ++i) {
+            const double r_mm = std::hypot(mask.grid.x_mm(i), y_mm);
+            row[i] *= static_cast<float>(1 - smoothstep(inner_mm, outer_mm, r_mm));
+        }
+    });
 }
 
 wave::Mask pupil(const ThesisFrames& frames) {
@@ -56,6 +70,7 @@ wave::Mask gratings(const ThesisLook& look, const ThesisFrames& frames) {
     // Inverted: white lines.
     std::transform(mask.values.data(), mask.values.data() + mask.values.size(), lens.re.data(),
                    mask.values.data(), [](float open, float lined) { return open - lined; });
+    fade_out(mask, scale * kGratingsFullMm, scale * kLensRadiusMm);
     return mask;
 }
 
@@ -74,7 +89,7 @@ wave::Mask particles(const ThesisLook& look, const ThesisFrames& frames) {
         disc.y_mm = distance * std::sin(direction) + orbit * std::sin(phase + turn);
     }
     wave::Mask mask(kThesisAperture);
-    wave::draw_particles(mask, discs);
+    wave::draw_particles(mask, discs, wave::Blend::kAdd, kParticleGrey);
     return mask;
 }
 
@@ -99,16 +114,7 @@ wave::Mask lashes(const ThesisLook& look, const ThesisFrames& frames) {
     };
     draw(look.eyelashes, 1, 0.5, -3);
     draw(look.eyelashes / 2, -1, 3, 1.5);
-    const int n = kThesisAperture.samples;
-    parallel_for(static_cast<std::size_t>(n), [&](std::size_t j, int) {
-        float* row = mask.row(static_cast<int>(j));
-        const double y_mm = kThesisAperture.x_mm(static_cast<int>(j));
-        for (int i = 0; i < n; ++i) {
-            const double r_mm = std::hypot(kThesisAperture.x_mm(i), y_mm);
-            row[i] *= static_cast<float>(
-                1 - smoothstep(kLashWindowMm - kLashWindowFadeMm, kLashWindowMm, r_mm));
-        }
-    });
+    fade_out(mask, kLashWindowMm - kLashWindowFadeMm, kLashWindowMm);
     return mask;
 }
 

@@ -59,7 +59,8 @@ Image coloured_pattern(Component component, const ThesisLook& look, const Thesis
     grid.pitch_deg = deg_from_rad(mm_from_nm(kReferenceNm) / kThesisAperture.extent_mm);
     grid.projection = Projection::kConstantPitch;
     wave::add_spectral(pattern, kThesisAperture.extent_mm, wave::PixelRule::kMean,
-                       bands(look.wavelengths), grid, {}, out, wave::Symmetry::kHalfTurn);
+                       bands(look.wavelengths), grid, {0, kCentre * grid.pitch_deg}, out,
+                       wave::Symmetry::kHalfTurn);
     return out;
 }
 

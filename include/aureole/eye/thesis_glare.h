@@ -52,7 +52,7 @@ struct ThesisLook {
     int eyelashes = 7;    // section 2.4: 4 to 8; 0 to 100
     // Wavelengths, evenly spaced from 380 to 770 nm; 2 to 1024. The thesis has 32, which leaves
     // dots where needles should be.
-    int wavelengths = 128;
+    int wavelengths = 96;
     // How far closed lids bend the streaks: the ends of the texture are displaced by bend sin(1) of
     // half its height (fig. 3.7). 0 to 2.
     double bend = 0.6;
