@@ -132,7 +132,7 @@ void SpreadSettings::check() const {
 void SpreadSettings::set_thesis_look() {
     if (threshold_option_->count() == 0) threshold = eye::kThesisThreshold;
     if (gain_option_->count() == 0) gain = eye::kThesisFinalGain;
-    source_tone_map = "hill";
+    source_tone_map = "unity";
     source_factor = eye::kThesisSourceFactor;
     added = true;
 }
