@@ -26,7 +26,8 @@ ThesisObserver::ThesisObserver(const EyeOptions& eye, const MotionOptions& motio
     : options_(eye),
       view_options_(view),
       moving_(moving),
-      lids_move_(moving && motion.blink_word() != "off" && !eye.given("--eyelid")),
+      lids_move_(moving && !eye.given("--eyelid") &&
+                 (motion.blink_word() != "off" || !motion.given("--blink"))),
       session_(session) {
     for (const char* name :
          {"--age", "--pigmentation", "--scatter", "--corona-contrast", "--source-spectrum"}) {

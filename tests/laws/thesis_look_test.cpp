@@ -80,8 +80,8 @@ TEST(ThesisLookSlow, IsTheSameAtHalfTheSize) {
     EXPECT_LT(difference / sum, 0.03);
 }
 
-// No cyan tint on white: all three channels add up to the same, and where white light has whitened
-// the picture, no channel is ahead.
+// No cyan tint on white: all three channels add up to the same. In the middle blue is a little
+// ahead, because longer waves spread wider.
 TEST(ThesisLookSlow, WhiteLightHasWhiteGlare) {
     Image picture(1281, 721, 3);
     for (int y = 352; y < 369; ++y) {
@@ -97,7 +97,7 @@ TEST(ThesisLookSlow, WhiteLightHasWhiteGlare) {
     EXPECT_NEAR(sums[0] / sums[1], 1, 0.01);
     EXPECT_NEAR(sums[2] / sums[1], 1, 0.01);
     for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(glare.at(640, 360, c) / glare.at(640, 360, 1), 1, 0.15);
+        EXPECT_NEAR(glare.at(640, 360, c) / glare.at(640, 360, 1), 1, 0.2);
         EXPECT_GT(glare.at(640, 360, c), 1);
     }
 }
