@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "program.h"
@@ -79,7 +80,7 @@ TEST_F(Thesis, WhatIsAskedForWins) {
 
 TEST_F(Thesis, OptionsWithoutEffectAreRefused) {
     write_lamp("in.exr");
-    const std::vector<std::vector<std::string>> refused = {
+    const std::vector<std::pair<std::string, std::string>> refused = {
         {"--scatter ijspeert", "--scatter"},
         {"--age 60", "--age"},
         {"--pigmentation blue", "--pigmentation"},
@@ -94,11 +95,7 @@ TEST_F(Thesis, OptionsWithoutEffectAreRefused) {
         {"--blink auto", "--time"},
         {"--observer camera", "--observer eye"},
     };
-    for (const auto& [option, name] : [&] {
-             std::vector<std::pair<std::string, std::string>> pairs;
-             for (const auto& words : refused) pairs.emplace_back(words[0], words[1]);
-             return pairs;
-         }()) {
+    for (const auto& [option, name] : refused) {
         const Outcome outcome = run("glare in.exr -o out.exr " + option + kThesis);
         EXPECT_NE(outcome.exit_code, 0) << option;
         EXPECT_TRUE(names_all(outcome.err, {name})) << option;
