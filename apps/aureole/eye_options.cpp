@@ -108,6 +108,24 @@ double EyeOptions::adaptation_cd_m2(double metered_cd_m2) const {
     return given_number(adaptation_).value_or(metered_cd_m2);
 }
 
+bool EyeOptions::given(const std::string& option) const {
+    return group_->get_option(option)->count() > 0;
+}
+
+bool EyeOptions::pupil_given() const {
+    return given("--pupil") || given("--pupil-model") || given("--adaptation");
+}
+
+void EyeOptions::set_default_pupil_model(const std::string& name) {
+    if (!given("--pupil-model")) pupil_model_ = name;
+}
+
+double EyeOptions::pupil_mm(double metered_cd_m2, const View& view) const {
+    if (const std::optional<double> diameter_mm = given_number(pupil_)) return *diameter_mm;
+    return eye::pupil_diameter_mm(eye::pupil_model_from_name(pupil_model_),
+                                  adaptation_cd_m2(metered_cd_m2), pupil_conditions(view));
+}
+
 eye::Eye EyeOptions::eye(double metered_cd_m2, const View& view) const {
     eye::Eye eye;
     eye.age_years = age_years_;
@@ -116,13 +134,7 @@ eye::Eye EyeOptions::eye(double metered_cd_m2, const View& view) const {
     eye.eyelid = eyelid_;
     eye.eyelashes = eyelashes_;
     eye.seed = seed_;
-    if (const std::optional<double> diameter_mm = given_number(pupil_)) {
-        eye.pupil_diameter_mm = *diameter_mm;
-    } else {
-        eye.pupil_diameter_mm =
-            eye::pupil_diameter_mm(eye::pupil_model_from_name(pupil_model_),
-                                   adaptation_cd_m2(metered_cd_m2), pupil_conditions(view));
-    }
+    eye.pupil_diameter_mm = pupil_mm(metered_cd_m2, view);
     eye::apply_look(eye, eye::look_from_name(preset_), view.horizontal_field_deg());
     eye.corona_contrast = corona_contrast_.value_or(eye.corona_contrast);
     eye.halo = halo_.value_or(eye.halo);

@@ -35,6 +35,16 @@ class EyeOptions {
     // --adaptation as a number, or what was metered.
     double adaptation_cd_m2(double metered_cd_m2) const;
     std::uint64_t seed() const { return seed_; }
+    // Single values, for looks that use a few of them.
+    bool given(const std::string& option) const;
+    bool pupil_given() const;  // by any option that says how wide it is
+    double pupil_mm(double metered_cd_m2, const View& view) const;
+    double eyelid() const { return eyelid_; }
+    int eyelashes() const { return eyelashes_; }
+    double halo() const { return halo_.value_or(1); }
+    double streaks() const { return streaks_.value_or(1); }
+    // The model unless --pupil-model says otherwise.
+    void set_default_pupil_model(const std::string& name);
     // Where the mean of a pupil that moves comes from, in an eye that looks at a view.
     void apply_pupil(eye::MotionSettings& settings, const View& view) const;
     // The eye of the options, looking at a view. `metered_cd_m2` is used if needs_adaptation().

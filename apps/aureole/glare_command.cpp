@@ -13,6 +13,7 @@
 #include "motion_options.h"
 #include "option_checks.h"
 #include "picture_job.h"
+#include "thesis_observer.h"
 
 namespace aureole::app {
 namespace {
@@ -30,6 +31,7 @@ struct GlareCommand {
     void check();
     void check_camera();
     void check_eye();
+    void check_thesis();
     std::unique_ptr<Observer> observer();
 
     CLI::App* command_line = nullptr;
@@ -77,12 +79,14 @@ void GlareCommand::add_options(CLI::App& command) {
         command.add_option(
             "--preset", preset,
             "physical: as measured; vivid (eye): what people say they see "
-            "(corona contrast 2.5 to 4, streaks x1.5); sikachev: streaks of "
+            "(corona contrast 2.5 to 4, streaks x1.5); thesis (eye): the look of "
+            "\"Physically-based Real-time Glare\": bright pixels only, saturated needles, halo "
+            "and streaks, added; sikachev: streaks of "
             "what is brighter than 1, as clusters, then bloom (--passes both "
             "--method sprites --cluster-error 0.001 --threshold 1 --tone-map "
             "xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): ghosts as "
             "drawn by a game, faded polygons of one colour each"),
-        {"physical", "vivid", "sikachev", "blog"});
+        {"physical", "vivid", "thesis", "sikachev", "blog"});
     preset_option->capture_default_str();
     view.add_options(command, "60, or the lens's for a camera");
     view.add_white_luminance_option(command);
@@ -145,7 +149,8 @@ void GlareCommand::check_camera() {
     refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
     refuse(view.white_luminance_given() ? "--white-luminance" : "",
            "matters for the eye's pupil only: leave it out with --observer camera");
-    refuse(preset == "vivid" ? "--preset vivid" : "", "needs --observer eye");
+    refuse(preset == "vivid" || preset == "thesis" ? "--preset " + preset : "",
+           "needs --observer eye");
     const Passes passes = spread.passes();
     refuse(passes == Passes::kOne || passes == Passes::kStreaks ? film.first_given() : "",
            "needs --passes both or bloom");
@@ -161,6 +166,10 @@ void GlareCommand::check_eye() {
         refuse(option, "is an option of the camera: needs --observer camera");
     }
     refuse(preset == "blog" ? "--preset blog" : "", "needs --observer camera");
+    if (preset == "thesis") {
+        check_thesis();
+        return;
+    }
     eye.set_preset(preset == "vivid" ? "vivid" : "physical");
     eye.check();
     motion.check();
@@ -183,6 +192,22 @@ void GlareCommand::check_eye() {
            "needs an eye or a camera: leave out --psf");
 }
 
+void GlareCommand::check_thesis() {
+    const auto alone = [](const std::string& option) {
+        if (!option.empty()) {
+            throw InvalidArgument("--preset thesis: cannot be combined with " + option);
+        }
+    };
+    alone(psf_file.empty() ? "" : "--psf");
+    alone(field_spacing_deg == 0 ? "" : "--field-varying");
+    alone(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name);
+    alone(spread.surround == "dark" ? "" : "--surround " + spread.surround);
+    if (frames.empty()) motion.check();
+    eye.check();
+    eye.set_default_pupil_model("thesis");
+    spread.set_thesis_look();
+}
+
 std::unique_ptr<Observer> GlareCommand::observer() {
     if (observer_name == "camera") {
         return std::make_unique<CameraObserver>(
@@ -190,6 +215,10 @@ std::unique_ptr<Observer> GlareCommand::observer() {
             CameraSpread{.passes = spread.passes(), .halation = film.halation()}, session);
     }
     if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
+    if (preset == "thesis") {
+        const bool moving = motion.alive() || !frames.empty();
+        return std::make_unique<ThesisObserver>(eye, motion, view, moving, session);
+    }
     if (motion.alive()) {
         return std::make_unique<LivingEyeObserver>(eye, motion, view, spread.passes(), session);
     }
@@ -202,8 +231,12 @@ void GlareCommand::run() {
     session.start();
     std::vector<FrameFiles> list =
         frame_files(inputs, settings.output.paths(), settings.side_by_side_file, frames);
-    for (FrameFiles& frame : list) frame.time_s = motion.time_s(frame.number);
     apply_preset(preset, observer_name, *command_line);
+    const bool turns_pages = preset == "thesis" && !motion.alive();
+    for (FrameFiles& frame : list) {
+        frame.time_s =
+            turns_pages ? ThesisObserver::time_of_frame(frame.number) : motion.time_s(frame.number);
+    }
     settings.prepare(list);
     check();
     ghosts.check_pictures(list.size());

@@ -65,6 +65,10 @@ void MotionOptions::add_options(CLI::App& command) {
 
 std::string MotionOptions::first_given() const { return app::first_given(*group_); }
 
+bool MotionOptions::given(const std::string& option) const {
+    return group_->get_option(option)->count() > 0;
+}
+
 void MotionOptions::check() const {
     const std::string option = first_given();
     if (!option.empty() && !alive()) {

@@ -22,6 +22,9 @@ class MotionOptions {
     // Throws InvalidArgument for options without --time or --fps.
     void check() const;
 
+    bool given(const std::string& option) const;
+    const std::string& blink_word() const { return blink_; }
+
     // Of a frame by its number.
     double time_s(int frame) const;
     // Gaze, blinks and squint. Reads files: throws FileError, InvalidArgument.

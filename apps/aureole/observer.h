@@ -41,6 +41,9 @@ class Observer {
     }
     // How much of the picture's light gets in, 0 to 1: the picture that spreads dims by it.
     virtual double light_share() const { return 1; }
+    // What the scattered light is to be multiplied by, of looks whose glare is brighter than light:
+    // asked after spreading().
+    virtual double gain() const { return 1; }
     // Gets ready for ghosts() in pictures whose data window is seen as `data`.
     virtual void plan(const View& /*data*/) {}
     // The light that does not spread but comes by other ways, to be added to the picture: 3

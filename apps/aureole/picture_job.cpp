@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
+#include "aureole/color/tone_curve.h"
+#include "aureole/eye/thesis_glare.h"
 #include "aureole/image/finite.h"
 #include "aureole/image/resample.h"
 #include "aureole/io/supersampling.h"
@@ -15,6 +18,9 @@
 
 namespace aureole::app {
 namespace {
+
+// A look that adds more than this share of a picture's light has whitened it.
+constexpr double kMuchAdded = 0.5;
 
 using Reason = glare::MethodReport::Reason;
 
@@ -103,7 +109,8 @@ void PictureJob::prepare(const io::Picture& picture) {
     const int channels = picture.color_channels();
     const bool adapted = observer_.adapt(picture);
     if (prepared_ && adapted && same_view(prepared_->view, view) &&
-        same_view(prepared_->display, display) && prepared_->channels == channels) {
+        same_view(prepared_->display, display) && prepared_->channels == channels &&
+        (prepared_->exposure_ev == exposure_ev_ || spread_.source_tone_map == "none")) {
         return;
     }
     prepared_.reset();
@@ -118,14 +125,14 @@ void PictureJob::prepare(const io::Picture& picture) {
     const bool one_pass = spread_.passes() == Passes::kOne;
     session_.timed("plan", [&] {
         Prepared& now =
-            prepared_.emplace(Prepared{display, view, channels, std::nullopt, std::nullopt, {}});
+            prepared_.emplace(Prepared{display, view, channels, exposure_ev_, {}, {}, {}});
         if (varying) now.varying.emplace(channels, *varying);
-        if (spreading.streaks) {
-            now.streaks.emplace(view, channels, *spreading.streaks, spread_.options(matte));
-        }
+        glare::GlareOptions options = spread_.options(matte, exposure_ev_);
+        options.gain *= static_cast<float>(observer_.gain());
+        if (spreading.streaks) now.streaks.emplace(view, channels, *spreading.streaks, options);
         if (spreading.rest) {
             now.rest.emplace(view, channels, *spreading.rest,
-                             one_pass ? spread_.options(matte) : spread_.bloom_options(matte));
+                             one_pass ? options : spread_.bloom_options(matte));
         }
         observer_.plan(view);
     });
@@ -203,6 +210,7 @@ void PictureJob::spread(const ConstImageView& in, const float* matte) {
         energy_.off_picture += share * energy.off_picture;
         energy_.blocked += (1 - share) * (energy.in + energy.from_surround);
         energy_.from_surround += energy.from_surround;
+        energy_.added += energy.added;
     } else {
         session_.timed("apply", [&] { result_ = copy(in); });
         const double energy = energy_of(in, view, solid_angles_);
@@ -301,11 +309,18 @@ void PictureJob::write(const FrameFiles& files, const io::Picture& picture) {
 
 std::string PictureJob::report() {
     auto& json = session_.json();
+    if (energy_.added > kMuchAdded * energy_.in) {
+        session_.note(
+            fmt::format("glare adds {:.2g} times the light of the picture (--gain, now {:g}, or "
+                        "--exposure scale it)",
+                        energy_.added / energy_.in, spread_.gain));
+    }
     const Prepared& last = *prepared_;
     json["outputs"] = written_;
     json["energy"] = {
         {"in", energy_.in}, {"out", energy_.out}, {"off_picture", energy_.off_picture}};
     if (energy_.from_surround != 0) json["energy"]["from_surround"] = energy_.from_surround;
+    if (energy_.added != 0) json["energy"]["added"] = energy_.added;
     if (energy_.blocked != 0) json["energy"]["blocked"] = energy_.blocked;
     if (has_ghosts_) json["energy"]["ghosts"] = energy_.ghosts;
     if (last.chosen() != nullptr) report_method(last.chosen()->last(), json);
@@ -342,7 +357,10 @@ std::string PictureJob::report() {
     const auto percent = [&](double energy) {
         return energy_.in > 0 ? 100 * energy / energy_.in : 0.0;
     };
-    if (last.spreads()) {
+    if (energy_.added != 0) {
+        summary += fmt::format("glare added {:.3g} % to the light of the picture;",
+                               percent(energy_.added));
+    } else if (last.spreads()) {
         summary += fmt::format("glare moved {:.2f} % of the light out of the picture;",
                                percent(energy_.off_picture));
     }

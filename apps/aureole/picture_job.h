@@ -54,6 +54,7 @@ class PictureJob {
         View display;  // of the display window
         View view;     // of the data window: all of it makes glare
         int channels;
+        double exposure_ev;
         std::optional<glare::Glare> streaks;  // before the rest, in a pass of their own
         std::optional<glare::Glare> rest;
         std::optional<glare::VaryingGlare> varying;  // in place of both

@@ -1,8 +1,11 @@
 #include "spread_options.h"
 
+#include <cmath>
 #include <map>
 
 #include "aureole/base/error.h"
+#include "aureole/color/tone_curve.h"
+#include "aureole/eye/thesis_glare.h"
 #include "option_checks.h"
 
 namespace aureole::app {
@@ -43,24 +46,25 @@ void SpreadSettings::add_options(CLI::App& group) {
                                 "that are drawn as one; 1: each pixel by itself"),
                {"1", "2", "4", "8", "16", "32", "64"})
             ->capture_default_str()};
-    CLI::Option* const threshold_option =
+    threshold_option_ =
         number(group.add_option("--threshold", threshold,
                                 "Pixel values below make no glare (continuous ramp); 0 is "
                                 "physical"),
                0, 1e30)
             ->type_name("V")
             ->capture_default_str();
-    number(group.add_option("--gain", gain, "Scales the scattered light; 1 conserves energy"), 0,
-           1e6)
-        ->type_name("G")
-        ->capture_default_str();
+    gain_option_ =
+        number(group.add_option("--gain", gain, "Scales the scattered light; 1 conserves energy"),
+               0, 1e6)
+            ->type_name("G")
+            ->capture_default_str();
     one_of(group.add_option("--surround", surround,
                             "What lies beyond the border. dark: nothing, borders lose light; same: "
                             "for each pixel surroundings as bright as itself"),
            {"dark", "same"})
         ->capture_default_str();
     streak_options_ = cluster_options_;
-    streak_options_.insert(streak_options_.begin(), {threshold_option, method_option});
+    streak_options_.insert(streak_options_.begin(), {threshold_option_, method_option});
 }
 
 void SpreadSettings::check() const {
@@ -92,20 +96,34 @@ Passes SpreadSettings::passes() const {
     return kNames.at(passes_name);
 }
 
-glare::GlareOptions SpreadSettings::options(bool matte) const {
+void SpreadSettings::set_thesis_look() {
+    if (threshold_option_->count() == 0) threshold = eye::kThesisThreshold;
+    if (gain_option_->count() == 0) gain = eye::kThesisFinalGain;
+    source_tone_map = "unity";
+    source_factor = eye::kThesisSourceFactor;
+    added = true;
+}
+
+glare::GlareOptions SpreadSettings::options(bool matte, double exposure_ev) const {
     glare::GlareOptions options = bloom_options(matte);
     options.method = glare::method_from_name(method);
     if (options.method != glare::Method::kFft) options.resolution = glare::Resolution::kFull;
     options.cluster_error = cluster_error;
     options.cluster_side = cluster_side;
-    options.threshold = threshold;
+    options.threshold = static_cast<float>(threshold);
+    options.gain = static_cast<float>(source_factor * gain);
+    options.added = added;
+    if (source_tone_map != "none") {
+        options.source_curve = color::tone_curve_from_name(source_tone_map);
+        options.exposure_scale = static_cast<float>(std::exp2(exposure_ev));
+    }
     return options;
 }
 
 glare::GlareOptions SpreadSettings::bloom_options(bool matte) const {
     glare::GlareOptions options;
     options.resolution = glare::resolution_from_name(resolution);
-    options.gain = gain;
+    options.gain = static_cast<float>(gain);
     options.matte = matte;
     options.surround = glare::surround_from_name(surround);
     return options;
@@ -124,7 +142,10 @@ nlohmann::ordered_json SpreadSettings::report() const {
     nlohmann::ordered_json json = {{"passes", passes_name},
                                    {"resolution", resolution},
                                    {"gain", gain},
-                                   {"surround", surround}};
+                                   {"surround", surround},
+                                   {"source_tone_map", source_tone_map},
+                                   {"source_factor", source_factor},
+                                   {"composite", added ? "added" : "conserving"}};
     if (passes() != Passes::kBloom) {
         json.update({{"cluster_error", cluster_error},
                      {"cluster_side", cluster_side},

@@ -26,9 +26,12 @@ struct SpreadSettings {
     void check() const;
     Passes passes() const;
     // Of the only pass, or of streaks.
-    glare::GlareOptions options(bool matte) const;
+    // Exposure matters where a tone curve decides what light is.
+    glare::GlareOptions options(bool matte, double exposure_ev) const;
     // Of the bloom behind streaks: of all light, and exact.
     glare::GlareOptions bloom_options(bool matte) const;
+    // ACES and a threshold decide what light is, glare is added; what was given stays.
+    void set_thesis_look();
     // The first option in force that a kernel that varies over the picture does not know, or
     // nothing.
     std::string first_selective() const;
@@ -39,11 +42,17 @@ struct SpreadSettings {
     std::string resolution = "full";
     double cluster_error = 0.01;
     int cluster_side = 16;
-    float threshold = 0;
-    float gain = 1;
+    double threshold = 0;
+    double gain = 1;
     std::string surround = "dark";
+    // Of looks only.
+    std::string source_tone_map = "none";
+    double source_factor = 1;  // beside the gain
+    bool added = false;
 
   private:
+    CLI::Option* threshold_option_ = nullptr;
+    CLI::Option* gain_option_ = nullptr;
     std::vector<CLI::Option*> streak_options_;   // that bloom does not know
     std::vector<CLI::Option*> cluster_options_;  // of methods with clusters
 };

@@ -11,7 +11,7 @@
 #include "aureole/base/parallel.h"
 #include "aureole/fourier/convolver.h"
 #include "aureole/sources/clusters.h"
-#include "aureole/sources/threshold.h"
+#include "glare/light_rule.h"
 #include "glare/luminance_kernel.h"
 #include "glare/spreading.h"
 
@@ -31,6 +31,14 @@ void check(const View& view, int channels, const wave::Psf& psf, const GlareOpti
     }
     if (!(options.gain >= 0)) {
         throw InvalidArgument("gain", std::to_string(options.gain), "must be >= 0");
+    }
+    if (!(options.exposure_scale > 0)) {
+        throw InvalidArgument("exposure scale", std::to_string(options.exposure_scale),
+                              "must be > 0");
+    }
+    if (options.added && options.surround != Surround::kDark) {
+        throw InvalidArgument("surround", "same",
+                              "must be dark where glare is added and borders lose nothing");
     }
     if (!(options.cluster_error > 0 && options.cluster_error < 1)) {
         throw InvalidArgument("cluster error", std::to_string(options.cluster_error),
@@ -128,7 +136,7 @@ Surround surround_from_name(std::string_view name) {
 
 struct Glare::Impl {
     Impl(const View& v, int c, const wave::Psf& psf, const GlareOptions& o)
-        : view(v), channels(c), options(o) {
+        : view(v), channels(c), options(o), rule(o) {
         Image grey;
         if (channels == 1) grey = luminance_kernel(psf.kernel);
         const Image& kernel = channels == 1 ? grey : psf.kernel;
@@ -144,7 +152,7 @@ struct Glare::Impl {
 
     // The result is something else than in * PSF.
     bool selective() const {
-        return options.threshold > 0 || options.gain != 1 || options.matte ||
+        return !rule.everything() || options.gain != 1 || options.added ||
                options.surround != Surround::kDark;
     }
 
@@ -167,11 +175,6 @@ struct Glare::Impl {
 
     float from_surround(int x, int y, int c) const {
         return surround.empty() ? 0.0F : surround.at(x, y, c);
-    }
-
-    float light_of(float value, const float* matte, std::size_t pixel) const {
-        const float above = sources::ramp(value, options.threshold);
-        return matte == nullptr ? above : above * matte[pixel];
     }
 
     const float* weight_plane() const { return weights.empty() ? nullptr : weights.plane(0); }
@@ -200,18 +203,16 @@ struct Glare::Impl {
             convolve(in, out);
             return;
         }
-        for_each_row([&](int y, int c) {
-            const std::size_t first = row_start(y);
-            float* to = light.row(y, c);
-            for (int x = 0; x < view.width; ++x) {
-                to[x] = light_of(in.at(x, y, c), matte, first + static_cast<std::size_t>(x));
-            }
+        parallel_for(static_cast<std::size_t>(view.height), [&](std::size_t row, int) {
+            const int y = static_cast<int>(row);
+            rule.row(in, y, matte, light, y);
         });
         convolve(light, spread);
         for_each_row([&](int y, int c) {
             for (int x = 0; x < view.width; ++x) {
-                const float change =
-                    spread.at(x, y, c) + (from_surround(x, y, c) - 1.0F) * light.at(x, y, c);
+                const float taken =
+                    options.added ? 0.0F : (1.0F - from_surround(x, y, c)) * light.at(x, y, c);
+                const float change = spread.at(x, y, c) - taken;
                 out.at(x, y, c) = in.at(x, y, c) + options.gain * change;
             }
         });
@@ -228,15 +229,16 @@ struct Glare::Impl {
         parallel_for(rows.size(), [&](std::size_t row, int) {
             const int y = static_cast<int>(row);
             Energy& sum = rows[row];
+            Image source(view.width, 1, channels);
+            rule.row(in, y, matte, source, 0);
             for (int c = 0; c < channels; ++c) {
                 for (int x = 0; x < view.width; ++x) {
                     const std::size_t pixel = row_start(y) + static_cast<std::size_t>(x);
                     const double weight = perspective ? weights.plane(0)[pixel] / (f * f) : 1.0;
-                    const float value = in.at(x, y, c);
-                    sum.in += weight * value;
+                    sum.in += weight * in.at(x, y, c);
                     sum.out += weight * out.at(x, y, c);
-                    const double spreading_light =
-                        weight * options.gain * light_of(value, matte, pixel);
+                    const double spreading_light = weight * options.gain * source.at(x, 0, c);
+                    if (options.added) sum.added += spreading_light;
                     sum.off_picture +=
                         spreading_light * (1.0 - spreading->share_inside().at(x, y, c));
                     // What was cut off, as its bound.
@@ -251,6 +253,7 @@ struct Glare::Impl {
             total.out += row.out;
             total.off_picture += row.off_picture;
             total.from_surround += row.from_surround;
+            total.added += row.added;
         }
         return total;
     }
@@ -258,6 +261,7 @@ struct Glare::Impl {
     View view;
     int channels;
     GlareOptions options;
+    LightRule rule;
     std::optional<Spreading> spreading;
     Image weights;   // relative solid angles, perspective only
     Image light;     // what makes glare, if not everything does

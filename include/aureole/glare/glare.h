@@ -6,6 +6,10 @@
 //     light = matte * max(0, in - threshold),   out = in + g (light * PSF - light + b light),
 // b the share that a flat field receives from beyond the border if there is light (Surround).
 //
+// Looks may let a tone curve decide what light is, and add glare without taking it from anywhere:
+//     light = matte * max(0, curve(exposure in) - threshold) / exposure,   out = in + g (light *
+//     PSF)
+//
 // Perspective: what is conserved is energy, radiance times the true solid angle W of a pixel, so
 //     W(x) out(x) = sum over s of W(s) in(s) k(x - s),
 // k being the energy kernel of a central source in true (tan) geometry. A flat field stays flat.
@@ -15,8 +19,10 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string_view>
 
+#include "aureole/color/tone_curve.h"
 #include "aureole/glare/energy.h"
 #include "aureole/image/image.h"
 #include "aureole/image/view.h"
@@ -82,6 +88,14 @@ struct GlareOptions {
     // Whether apply() will be given a matte.
     bool matte = false;
     Surround surround = Surround::kDark;
+    // Applied to the picture before the threshold, which is then one of the curve's results (0 to
+    // 1): what is beyond the curve's white makes no more glare than white. None: the picture
+    // itself.
+    std::optional<color::ToneCurve> source_curve;
+    float exposure_scale = 1;  // > 0; multiplies the picture before source_curve
+    // Glare is added to the picture, and nothing is taken away where it comes from. Needs
+    // Surround::kDark: there is nothing to make up for.
+    bool added = false;
     // kSprites, kHybrid, kAuto: the error that clusters of lights, ends of sprites and light left
     // out may add up to: the sum over pixels and channels of solid angle times |difference| from
     // kFft, over the sum of that times |light|. In (0, 1).
@@ -133,7 +147,7 @@ class Glare {
     // what lies beyond it counts as off the picture. The PSF is not kept.
     // Throws InvalidArgument for other channel counts, negative threshold or gain, and when the
     // PSF was made for another pitch or projection than the view's (by more than 0.1 %), for
-    // cluster_error and cluster_side out of range, and for a reduced resolution with other methods
+    // other options out of range, and for a reduced resolution with other methods
     // than kFft. kAuto times the methods for some 100 ms, the
     // first one of a process a little longer.
     Glare(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options = {});
