@@ -47,6 +47,7 @@ class EyeOptions {
   private:
     void add_options_to_group();
     eye::PupilConditions pupil_conditions(const View& view) const;
+    eye::PupilForm pupil_form() const;
 
     CLI::Option_group* group_ = nullptr;
     CLI::Option* adaptation_option_ = nullptr;
@@ -59,6 +60,8 @@ class EyeOptions {
     std::optional<double> streaks_;
     std::string pupil_ = "auto";
     std::string pupil_model_ = "watson-yellott";
+    std::string pupil_shape_ = "round";
+    std::optional<double> pupil_rotation_deg_;
     std::string adaptation_ = "auto";
     double eyelid_ = 0;
     int eyelashes_ = 7;
