@@ -21,15 +21,11 @@ void EyeOptions::add_options(CLI::App& command) {
            {"physical", "vivid"})
         ->capture_default_str();
     add_options_to_group();
-    number_or_auto(adaptation_option_);
 }
 
 void EyeOptions::add_options_but_preset(CLI::App& command) {
     group_ = command.add_option_group("The eye");
     add_options_to_group();
-    adaptation_option_->type_name("auto|CD_M2|FILE");
-    adaptation_option_->description(adaptation_option_->get_description() +
-                                    "; with --time or --fps, a table of `aureole meter`");
 }
 
 void EyeOptions::add_options_to_group() {
@@ -70,11 +66,13 @@ void EyeOptions::add_options_to_group() {
                             "Turns a slit or an ellipse, counter-clockwise"),
            -180, 180)
         ->type_name("DEG");
-    adaptation_option_ =
-        group.add_option("--adaptation", adaptation_,
-                         "Luminance the eye is adapted to, in cd/m2, or auto: attribute "
-                         "aureole:adaptation_cd_m2, else the mean of the picture");
-    adaptation_option_->type_name("auto|CD_M2")->capture_default_str();
+    group
+        .add_option("--adaptation", adaptation_,
+                    "Luminance the eye is adapted to, in cd/m2, or auto: attribute "
+                    "aureole:adaptation_cd_m2, else the mean of the picture; of an eye in motion, "
+                    "a table of `aureole meter`")
+        ->type_name("auto|CD_M2|FILE")
+        ->capture_default_str();
     number(
         group.add_option("--eyelid", eyelid_, "How far the upper lid is closed: 0 open, 1 closed"))
         ->type_name("0..1")

@@ -18,8 +18,7 @@ class EyeOptions {
   public:
     // --preset and the others.
     void add_options(CLI::App& command);
-    // The others, for commands whose --preset knows further words and whose --adaptation may be a
-    // table over time.
+    // The others, for commands whose --preset knows further words.
     void add_options_but_preset(CLI::App& command);
     void set_preset(const std::string& word) { preset_ = word; }
 
@@ -50,7 +49,6 @@ class EyeOptions {
     eye::PupilForm pupil_form() const;
 
     CLI::Option_group* group_ = nullptr;
-    CLI::Option* adaptation_option_ = nullptr;
     std::string preset_ = "physical";
     double age_years_ = 30;
     std::string pigmentation_ = "brown";
