@@ -16,6 +16,9 @@ enum Stream : std::uint64_t {
     kCorneaStream,
     kGratingStream,
     kLashStream,
+    kUpperCurledStream,
+    kLowerCurledStream,
+    kTuftStream,
 };
 
 // Highest harmonic of the pupil's edge.
@@ -39,14 +42,12 @@ wave::Shape seen(wave::Shape shape, Layer layer, const Oblique& view);
 struct Lids {
     Lids(const Eye& eye, const PupilOutline& pupil, double closure)
         : height_mm(2 * pupil.half_height_mm()),
-          descent_mm((1 - eye.anatomy.lower_lid_share) * closure * height_mm),
-          rise_mm(eye.anatomy.lower_lid_share * closure * height_mm),
-          upper_mm(height_mm / 2 - descent_mm),
-          lower_mm(rise_mm - height_mm / 2) {}
+          upper_mm(height_mm / 2 - (1 - eye.anatomy.lower_lid_share) * closure * height_mm),
+          lower_mm(eye.anatomy.lower_lid_share * closure * height_mm - height_mm / 2) {}
 
-    double height_mm;   // of the pupil
-    double descent_mm;  // of the upper lid
-    double rise_mm;     // of the lower one
+    double gap_mm() const { return upper_mm - lower_mm; }
+
+    double height_mm;  // of the pupil
     double upper_mm;
     double lower_mm;
 };

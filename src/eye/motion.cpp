@@ -211,7 +211,6 @@ Moment LivingEye::at(double time_s) const noexcept {
                                      std::log10(moment.adaptation_cd_m2));
     const double squinting = 1 - (1 - own.rest.eyelid) * (1 - moment.squint);
     const double blinking = 1 - (1 - squinting) * (1 - moment.blink);
-    pose.lashes_bend = true;
     pose.lash_closure = std::max(pose.lash_closure, blinking);
     own.close_lids(moment, settings.blinks.streaks_only ? squinting : blinking);
     return moment;

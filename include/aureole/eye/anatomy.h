@@ -30,15 +30,19 @@ struct Gratings {
     double jitter_fibres = 0.25;   // rms displacement of the fibres, in fibre spacings
 };
 
-// The lashes in front of the pupil, hanging from the upper lid.
+// The lashes in front of the pupil: those that hang from the upper lid of the open eye, and those
+// of both lids that curl away from it and come before the pupil when lids close.
 struct Lashes {
     double width_um = 75;      // mean of the full width at the root, +- 25 %
     double angle_sd_deg = 15;  // standard deviation of the direction about the vertical
     double reach = 0.45;       // mean share of the pupil's height that a lash covers from above
     double reach_sd = 0.25;    // its standard deviation
     double curvature_per_mm = 0.03;  // standard deviation
-    double distance_mm = 12;  // of the lashes and the lid's edge before the pupil, 0 to 30: what
-                              // moves them across it with the direction of the light
+    double distance_mm = 12;     // of the lashes and the lid's edge before the pupil, 0 to 30: what
+                                 // moves them across it with the direction of the light
+    double curled_per_mm = 2.8;  // along either lid, where Eye::eyelashes is 7; 0 to 10
+    double curl_deg = 40;  // how far they curl away from straight ahead, spread evenly from 0 to
+                           // this, which is 1 to 90
 };
 
 enum class PupilShape {
@@ -83,9 +87,6 @@ struct Pose {
     // How far the lashes have come down with a lid that covers nothing, 0 to 1 as Eye::eyelid; the
     // larger of both counts.
     double lash_closure = 0;
-    // Whether lashes bend where they meet the lower lid. Without, they pass it: straight lashes are
-    // those with which the streaks were calibrated.
-    bool lashes_bend = false;
 };
 
 // One eye, and what it is made to look like.
@@ -162,11 +163,12 @@ void multiply_gratings(const Eye& eye, wave::Field& field);
 // sentence that says where it does not.
 std::string grating_resolution_note(const Eye& eye, const wave::ApertureGrid& grid);
 
-// Share of each sample that lashes block. They move with the upper lid. Those of `eyelashes` hang
+// Share of each sample that lashes block. They move with their lids. Those of `eyelashes` hang
 // before the pupil of a source on the axis; the row goes on to both sides at the same spacing,
-// 15 mm from the axis at most, with lashes that do not reach this pupil. Lashes that bend keep
-// their length between the edge of the upper lid and their tip, which stays on that of the lower
-// one: they become arcs, at most half circles.
+// 15 mm from the axis at most, with lashes that do not reach this pupil. As lids close, lashes that
+// meet the other lid keep their length between the edge of their own and their tip, which stays on
+// that of the other: they become arcs, at most half circles. Curled ones turn in with their lid,
+// and neighbours come together in tufts (docs/streaks.md).
 wave::Mask draw_lashes(const Eye& eye, const wave::ApertureGrid& grid,
                        const FieldPosition& field = {});
 
