@@ -11,9 +11,10 @@ struct PresetValue {
 // Sikachev, Tisevich & Ignatenko 2008: sections 4 (clusters), 3.2 (order, antialiasing), 3.3 (tone
 // curve).
 constexpr PresetValue kSikachev[] = {
-    {"--passes", "both"}, {"--method", "sprites"}, {"--cluster-error", "0.001"},  // arms end unseen
-    {"--threshold", "1"}, {"--resolution", "half"},  // of the bloom
-    {"--tone-map", "xyz"}, {"--antialias", "edges"}};
+    {"--passes", "both"},         {"--method", "sprites"},
+    {"--cluster-error", "0.001"},                            // arms end unseen
+    {"--threshold", "1"},         {"--resolution", "half"},  // of the bloom
+    {"--tone-map", "xyz"},        {"--antialias", "edges"}};
 // Its camera has a diaphragm and no ghosts.
 constexpr PresetValue kSikachevCamera[] = {{"--blades", "6"}, {"--ghosts", "none"}};
 

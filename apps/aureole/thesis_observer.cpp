@@ -29,8 +29,8 @@ ThesisObserver::ThesisObserver(const EyeOptions& eye, const MotionOptions& motio
       lids_move_(moving && !eye.given("--eyelid") &&
                  (motion.blink_word() != "off" || !motion.given("--blink"))),
       session_(session) {
-    for (const char* name :
-         {"--age", "--pigmentation", "--scatter", "--corona-contrast", "--source-spectrum"}) {
+    for (const char* name : {"--age", "--pigmentation", "--scatter", "--corona-contrast",
+                             "--source-spectrum", "--pupil-shape", "--pupil-rotation"}) {
         refuse(eye.given(name) ? name : "",
                "is about the physical eye: --preset thesis has nothing that it could change");
     }

@@ -37,12 +37,29 @@ TEST_F(Help, OfEveryCommandNamesItsOptions) {
     }
     EXPECT_TRUE(names_all(glare.out, kEye));
     EXPECT_TRUE(names_all(psf.out, kEye));
-    EXPECT_TRUE(names_all(
-        glare.out, {"INPUT", "--output", "--frames", "--white-luminance", "--method",
-                    "--cluster-error", "--resolution", "--output-layers", "--matte", "--threshold",
-                    "--gain", "--field-varying", "--psf", "--surround", "--side-by-side", "--passes", "--cluster-side",
-                    "--supersampling", "--halation",
-                    "--tone-map", "--exposure", "--ocio-config", "none|narkowicz|hill|aces"}));
+    EXPECT_TRUE(names_all(glare.out, {"INPUT",
+                                      "--output",
+                                      "--frames",
+                                      "--white-luminance",
+                                      "--method",
+                                      "--cluster-error",
+                                      "--resolution",
+                                      "--output-layers",
+                                      "--matte",
+                                      "--threshold",
+                                      "--gain",
+                                      "--field-varying",
+                                      "--psf",
+                                      "--surround",
+                                      "--side-by-side",
+                                      "--passes",
+                                      "--cluster-side",
+                                      "--supersampling",
+                                      "--halation",
+                                      "--tone-map",
+                                      "--exposure",
+                                      "--ocio-config",
+                                      "none|narkowicz|hill|aces"}));
     EXPECT_TRUE(names_all(psf.out, {"--output", "--width", "--height", "--size", "--component",
                                     "bloom", "corona", "halo", "streaks"}));
     EXPECT_TRUE(
