@@ -246,6 +246,29 @@ void convolve_rows(const RowPass& pass, float* slab, const float* spectrum, floa
     convolve_line(*pass.plan, slab, slab, pass.width, spectrum, scratch);
 }
 
+void mix_rows(const RowPass& pass, int channels, float* slab, std::size_t slab_floats,
+              const float* spectrum, std::size_t spectrum_floats, float* scratch) {
+    const int n = pass.plan->length;
+    const auto count = static_cast<std::size_t>(channels);
+    const std::size_t line_floats = static_cast<std::size_t>(n) * kElement;
+    float* sum = scratch + count * line_floats;
+    for (std::size_t j = 0; j < count; ++j) {
+        forward_line(*pass.plan, slab + j * slab_floats, pass.width, scratch + j * line_floats);
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+        for (int x = 0; x < n; ++x) {
+            Complex value = zero();
+            for (std::size_t j = 0; j < count; ++j) {
+                const float* kernel = spectrum + (count * j + c) * spectrum_floats;
+                value = add(value, multiply(load(element(scratch + j * line_floats, x)),
+                                            load(kernel + static_cast<std::size_t>(x) * kElement)));
+            }
+            store(value, element(sum, x));
+        }
+        inverse_line(*pass.plan, sum, slab + c * slab_floats, pass.width);
+    }
+}
+
 void spectrum_rows(const RowPass& pass, int first_column, float scale_by, float* slab,
                    float* scratch) {
     const int n = pass.plan->length;
@@ -259,7 +282,7 @@ void spectrum_rows(const RowPass& pass, int first_column, float scale_by, float*
 }  // namespace
 
 ConvolverKernels make_convolver_kernels() {
-    return {kLanes, &columns_in, &columns_out, &convolve_rows, &spectrum_rows};
+    return {kLanes, &columns_in, &columns_out, &convolve_rows, &mix_rows, &spectrum_rows};
 }
 
 }  // namespace aureole::fourier::HWY_NAMESPACE

@@ -42,6 +42,11 @@ struct ConvolverKernels {
                         const ImageView& out, int batch, float* scratch);
     // Convolves a slab with the kernel's spectrum, in place. Scratch: 2 V * plan length floats.
     void (*convolve_rows)(const RowPass& pass, float* slab, const float* spectrum, float* scratch);
+    // The same for `channels` slabs at once, slab_floats apart, with a matrix of spectra: channel c
+    // becomes the sum over j of channel j convolved with that at spectrum + (channels j + c)
+    // spectrum_floats. Scratch: (channels + 1) * 2 V * plan length floats.
+    void (*mix_rows)(const RowPass& pass, int channels, float* slab, std::size_t slab_floats,
+                     const float* spectrum, std::size_t spectrum_floats, float* scratch);
     // Turns a slab of the kernel into its spectrum, in place: column x of the slab is put at column
     // first + x of the transform, cyclically. `slab`: 2 V * plan length floats.
     void (*spectrum_rows)(const RowPass& pass, int first_column, float scale, float* slab,
