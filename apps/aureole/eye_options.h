@@ -18,8 +18,7 @@ class EyeOptions {
   public:
     // --preset and the others.
     void add_options(CLI::App& command);
-    // The others, for commands whose --preset knows further words and whose --adaptation may be a
-    // table over time.
+    // The others, for commands whose --preset knows further words.
     void add_options_but_preset(CLI::App& command);
     void set_preset(const std::string& word) { preset_ = word; }
 
@@ -47,9 +46,9 @@ class EyeOptions {
   private:
     void add_options_to_group();
     eye::PupilConditions pupil_conditions(const View& view) const;
+    eye::PupilForm pupil_form() const;
 
     CLI::Option_group* group_ = nullptr;
-    CLI::Option* adaptation_option_ = nullptr;
     std::string preset_ = "physical";
     double age_years_ = 30;
     std::string pigmentation_ = "brown";
@@ -59,6 +58,8 @@ class EyeOptions {
     std::optional<double> streaks_;
     std::string pupil_ = "auto";
     std::string pupil_model_ = "watson-yellott";
+    std::string pupil_shape_ = "round";
+    std::optional<double> pupil_rotation_deg_;
     std::string adaptation_ = "auto";
     double eyelid_ = 0;
     int eyelashes_ = 7;

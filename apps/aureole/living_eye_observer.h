@@ -5,6 +5,7 @@
 
 #include "aureole/eye/motion.h"
 #include "eye_options.h"
+#include "living_eye.h"
 #include "motion_options.h"
 #include "observer.h"
 #include "session.h"
@@ -18,7 +19,8 @@ class LivingEyeObserver : public Observer {
   public:
     // Reads the files that the options name. Throws FileError, InvalidArgument.
     LivingEyeObserver(const EyeOptions& eye, const MotionOptions& motion, const ViewOptions& view,
-                      Session& session);
+                      Session& session)
+        : options_(eye), living_(eye, motion), view_options_(view), session_(session) {}
 
     void set_time(double time_s) override { time_s_ = time_s; }
     View view_of(const io::Picture& picture) override;
@@ -29,11 +31,9 @@ class LivingEyeObserver : public Observer {
 
   private:
     const EyeOptions& options_;
-    const MotionOptions& motion_;
+    LivingEye living_;
     const ViewOptions& view_options_;
     Session& session_;
-    eye::MotionSettings settings_;
-    std::optional<eye::LuminanceCurve> adaptation_;  // none: each picture's own
     View view_;
     double time_s_ = 0;
     double white_luminance_cd_m2_ = 0;

@@ -12,6 +12,7 @@
 #include "aureole/base/units.h"
 #include "aureole/wave/diffraction.h"
 #include "aureole/wave/spectral_psf.h"
+#include "eye/pupil_outline.h"
 #include "eye/stopwatch.h"
 
 namespace aureole::eye {
@@ -177,7 +178,7 @@ Image Components::bloom() {
 std::optional<Image> Components::halo() {
     const int n = options_.aperture.samples;
     const auto count = static_cast<std::size_t>(n);
-    if (eye_.pupil_diameter_mm / 2 <= eye_.anatomy.gratings.inner_radius_mm ||
+    if (PupilOutline(eye_).longest_radius_mm() <= eye_.anatomy.gratings.inner_radius_mm ||
         eye_.anatomy.gratings.phase_rad == 0) {
         return std::nullopt;
     }

@@ -35,6 +35,9 @@ void check(const Eye& eye) {
     require("halo", eye.halo, 0, 20, "");
     require("streaks", eye.streaks, 0, 20, "");
     const Anatomy& anatomy = eye.anatomy;
+    require("pupil axis ratio", anatomy.pupil.axis_ratio, 1, 10, "");
+    require("iris", anatomy.pupil.iris_mm, 1, 9, " mm");
+    require("pupil rotation", anatomy.pupil.rotation_deg, -180, 180, " deg");
     check_particles("lens_small", anatomy.lens_small);
     check_particles("lens_large", anatomy.lens_large);
     check_particles("vitreous", anatomy.vitreous);

@@ -11,10 +11,12 @@
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
+#include "aureole/base/units.h"
 #include "aureole/eye/scatter.h"
 #include "eye/components.h"
 #include "eye/corona_texture.h"
 #include "eye/kernel_checks.h"
+#include "eye/pupil_outline.h"
 #include "eye/scatter_pixels.h"
 #include "eye/stopwatch.h"
 
@@ -100,22 +102,37 @@ wave::Psf single_pattern(const wave::KernelGrid& grid, const wave::KernelGrid& p
     return psf;
 }
 
-}  // namespace
-
-double halo_weight(const Eye& eye) {
+// Energy of the halo behind a round pupil: w_h of the header.
+double round_halo_weight(double pupil_mm) {
     constexpr struct {
         double pupil_mm;
         double weight;
     } kNodes[] = {{3, 0}, {5, 0.0005}, {6, 0.0030}, {7, 0.0062}};
-    const double pupil_mm = eye.pupil_diameter_mm;
     if (pupil_mm <= kNodes[0].pupil_mm) return 0;
     for (std::size_t i = 1; i < std::size(kNodes); ++i) {
         if (pupil_mm > kNodes[i].pupil_mm) continue;
         const double t =
             (pupil_mm - kNodes[i - 1].pupil_mm) / (kNodes[i].pupil_mm - kNodes[i - 1].pupil_mm);
-        return eye.halo * (kNodes[i - 1].weight + t * (kNodes[i].weight - kNodes[i - 1].weight));
+        return kNodes[i - 1].weight + t * (kNodes[i].weight - kNodes[i - 1].weight);
     }
-    return eye.halo * kNodes[std::size(kNodes) - 1].weight;
+    return kNodes[std::size(kNodes) - 1].weight;
+}
+
+}  // namespace
+
+double halo_weight(const Eye& eye) {
+    const PupilOutline pupil(eye);
+    if (pupil.round()) return eye.halo * round_halo_weight(eye.pupil_diameter_mm);
+    // Sector by sector, as many as a narrow slit needs.
+    constexpr int kSectors = 4096;
+    double energy = 0;
+    double area = 0;
+    for (int i = 0; i < kSectors; ++i) {
+        const double radius_mm = pupil.radius_mm(2 * kPi * (i + 0.5) / kSectors);
+        energy += round_halo_weight(2 * radius_mm) * radius_mm * radius_mm;
+        area += radius_mm * radius_mm;
+    }
+    return eye.halo * energy / area;
 }
 
 wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOptions& options,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "program.h"
 
@@ -89,6 +90,44 @@ TEST_F(PsfFile, DependsOnTheEyeAndTheSeed) {
     EXPECT_TRUE(identical(a, read("b.exr").image()));
     EXPECT_FALSE(identical(a, read("c.exr").image()));
     EXPECT_LT(sum_of(read("d.exr").image(), 1), sum_of(a, 1));  // older eyes scatter farther
+}
+
+// A cat's halo lies to both sides, where its slit uncovers the fibres.
+TEST_F(PsfFile, OfASlitPupilSpreadsAcrossIt) {
+    const std::string command =
+        "psf --size 65 --width 480 --pupil 4 --component bloom --fov 10 -o k.exr ";
+    const auto spread = [&](const std::string& options) {
+        const nlohmann::json json = report(command + options);
+        const Image image = read("k.exr").image();
+        double across = 0;
+        double along = 0;
+        for (int y = 0; y < 65; ++y) {
+            for (int x = 0; x < 65; ++x) {
+                across += double{image.at(x, y, 1)} * std::abs(x - 32);
+                along += double{image.at(x, y, 1)} * std::abs(y - 32);
+            }
+        }
+        return std::pair(across / along, json["parameters"]);
+    };
+    EXPECT_NEAR(spread("").first, 1, 0.05);
+    const auto [upright, parameters] = spread("--pupil-shape slit");
+    EXPECT_GT(upright, 2);
+    EXPECT_EQ(parameters["pupil_shape"], "slit");
+    EXPECT_EQ(parameters["pupil_long_mm"], 9);
+    EXPECT_LT(parameters["pupil_short_mm"], 3);
+    EXPECT_NEAR(spread("--pupil-shape slit --pupil-rotation 90").first * upright, 1, 0.05);
+    EXPECT_LT(spread("--pupil-shape ellipse:2").first, 0.8);
+    for (const auto& [options, named] :
+         std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"--pupil-shape blob", {"--pupil-shape", "blob", "slit"}},
+             {"--pupil-shape ellipse:11", {"--pupil-shape", "11", "10"}},
+             {"--pupil-shape ellipse", {"--pupil-shape", "ellipse", "number"}},
+             {"--pupil-rotation 3", {"--pupil-rotation", "--pupil-shape"}}}) {
+        const Outcome outcome = run("psf --size 9 -o bad.exr " + options);
+        EXPECT_EQ(outcome.exit_code, 2) << options;
+        EXPECT_TRUE(names_all(outcome.err, named)) << outcome.err;
+        EXPECT_FALSE(exists("bad.exr"));
+    }
 }
 
 // A kernel of full reach is the eye that glare would make by itself.

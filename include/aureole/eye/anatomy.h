@@ -41,7 +41,25 @@ struct Lashes {
                               // moves them across it with the direction of the light
 };
 
+enum class PupilShape {
+    kRound,    // people
+    kSlit,     // cats, foxes, geckos: between two arcs with vertical tips
+    kEllipse,  // horses, sheep, goats: long axis horizontal
+};
+
+// The outline of a pupil. A pupil_diameter_mm is the diameter of the disc of equal area, whatever
+// the shape: it lets in the same light. The ring of the iris ends every pupil at iris_mm, so that
+// slits and ellipses become round when they open: the tips of a slit stay there while its sides
+// part, an ellipse keeps its axis ratio until it is that long (docs/eye.md).
+struct PupilForm {
+    PupilShape shape = PupilShape::kRound;
+    double axis_ratio = 2;    // kEllipse: long over short, 1 to 10
+    double iris_mm = 9;       // 1 to 9
+    double rotation_deg = 0;  // counter-clockwise, -180 to 180
+};
+
 struct Anatomy {
+    PupilForm pupil;
     Particles lens_small = {2500, 1.5, 8};
     Particles lens_large = {750, 10, 35};
     Particles vitreous = {2500, 1.5, 8};
@@ -72,7 +90,7 @@ struct Pose {
 
 // One eye, and what it is made to look like.
 struct Eye {
-    double pupil_diameter_mm = 5;  // 1 to 9; see pupil.h
+    double pupil_diameter_mm = 5;  // of the disc of equal area, 1 to 9; see pupil.h
     double age_years = 30;         // 1 to 120
     Pigmentation pigmentation = Pigmentation::kBrown;
     ScatterModel scatter = ScatterModel::kCie;
@@ -89,6 +107,13 @@ struct Eye {
 
 // Throws InvalidArgument that names the first value outside the ranges above.
 void check(const Eye& eye);
+
+// Length and width of the pupil along its axes, mm; both the diameter of a round one.
+struct PupilAxes {
+    double long_mm = 0;
+    double short_mm = 0;
+};
+PupilAxes pupil_axes(const Eye& eye) noexcept;
 
 // Named settings of corona_contrast, halo and streaks.
 enum class Look {

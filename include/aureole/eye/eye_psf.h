@@ -75,7 +75,8 @@ wave::Psf eye_component(Component component, const Eye& eye, const wave::KernelG
                         const EyePsfOptions& options = {}, Progress* progress = nullptr);
 
 // Energy of the halo, w_h: 0 up to a pupil of 3 mm (the iris covers the fibres), then .0005 at 5,
-// .0030 at 6, .0062 from 7 mm on, linear between, times eye.halo.
+// .0030 at 6, .0062 from 7 mm on, linear between, times eye.halo. Of a pupil that is not round
+// every sector counts as that of a round one of its radius: it uncovers the same fibres.
 double halo_weight(const Eye& eye);
 
 }  // namespace aureole::eye
