@@ -204,8 +204,8 @@ wave::VaryingPsf eye_field_psf(const Eye& eye, const View& view, const FieldPsfO
             for (int i = 0; i < part.columns; ++i) {
                 const FieldPosition field = field_position(view, place(i, part.columns, view.width),
                                                            place(j, part.rows, view.height));
-                part.kernels.push_back(
-                    windowed(streaks(eye, field, grid, sampling).kernel, window, outside, scale));
+                part.halves.push_back(fourier::right_half(
+                    windowed(streaks(eye, field, grid, sampling).kernel, window, outside, scale)));
             }
             if (progress == nullptr) continue;
             progress->report(outside ? "streaks: rays" : "streaks: centre", (j + 1.0) / part.rows);
