@@ -123,6 +123,9 @@ void check(const View& view, const FieldPsfOptions& options) {
         throw InvalidArgument(what, fmt::format("{}", value),
                               fmt::format("must be {} to {} deg", low, high));
     };
+    if (options.psf.spectral.by_color) {
+        throw InvalidArgument("spectrum by colour", "on", "must be off where streaks vary");
+    }
     require("spacing of the nodes", options.spacing_deg, 0.5, 30);
     require("centre of streaks", options.centre_deg, 0.2, 5);
     require("reach of streaks", options.reach_deg, options.centre_deg, 45);

@@ -10,7 +10,7 @@
 #include "aureole/base/parallel.h"
 #include "aureole/fourier/convolver.h"
 #include "aureole/fourier/varying_convolver.h"
-#include "glare/luminance_kernel.h"
+#include "glare/kernel_sums.h"
 
 namespace aureole::glare {
 namespace {

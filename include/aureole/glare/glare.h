@@ -1,5 +1,9 @@
 // Applying a point spread function to pictures.
 //
+// A PSF of three channels spreads each colour by itself; a matrix (wave/psf.h) also leads light to
+// other colours, as diffraction does with the light of a coloured source: kFft and kDirect, with a
+// dark surround, and grey pictures as if they were white.
+//
 // The result is linear and unclipped, and adds nothing to the energy:
 //     out = in * PSF,
 // and with a threshold, a matte or a gain g, for the light that makes glare,
@@ -103,9 +107,9 @@ class Glare {
     // `channels` is 3 (RGB) or 1 (grey: the luminance of the PSF). The kernel may have any size;
     // what lies beyond it counts as off the picture. The PSF is not kept.
     // Throws InvalidArgument for other channel counts, negative threshold or gain, and when the
-    // PSF was made for another pitch or projection than the view's (by more than 0.1 %), and for
-    // cluster_error and cluster_side out of range. The first kAuto of a process measures the
-    // machine for some 50 ms.
+    // PSF was made for another pitch or projection than the view's (by more than 0.1 %), for a
+    // matrix with another method or surround than above, and for cluster_error and cluster_side out
+    // of range. The first kAuto of a process measures the machine for some 50 ms.
     Glare(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options = {});
     ~Glare();
     Glare(Glare&&) noexcept;
