@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "aureole/base/error.h"
+#include "aureole/color/illuminant.h"
+#include "aureole/color/primary_spectra.h"
 #include "aureole/color/rgb.h"
+#include "aureole/color/spectrum.h"
 #include "aureole/eye/eye_psf.h"
 
 namespace aureole::eye {
@@ -86,37 +89,53 @@ TEST_P(ColorPsf, LightKeepsItsColourInSum) {
 INSTANTIATE_TEST_SUITE_P(Scatter, ColorPsf,
                          testing::Values(ScatterModel::kCie, ScatterModel::kNone));
 
-// Orange light holds no blue wavelengths: the rings of its Airy pattern are those of orange in every
-// colour. By the kernel of daylight its green rings would be as narrow as those of green light.
-TEST(ColorPsfRings, OfOrangeLightAreOrangeOnes) {
+// The Airy pattern of an orange light against the sum of those of its wavelengths, one by one.
+TEST(ColorPsfRings, AreTheSumOverTheSpectrumOfTheLight) {
     Eye eye;
     eye.pupil_diameter_mm = 2;
     eye.eyelashes = 0;
     EyePsfOptions options = small(true);
     options.aperture = {512, 10};
-    const wave::KernelGrid grid = {121, 121, 0.001, Projection::kPerspective};
+    const wave::KernelGrid grid = {81, 81, 0.002, Projection::kPerspective};
+    const color::Rgb orange = {1, 0.25, 0.02};
     const wave::Psf psf = eye_component(Component::kBloom, eye, grid, options);
-    const auto darkest = [&](const color::Rgb& light, int c) {
-        const auto value = [&](int dx) {
-            double sum = 0;
-            for (int j = 0; j < 3; ++j) {
-                sum += light[static_cast<std::size_t>(j)] *
-                       static_cast<double>(psf.kernel.at(60 + dx, 60, 3 * j + c));
-            }
-            return sum;
-        };
-        int best = 10;
-        for (int dx = 10; dx <= 30; ++dx) {
-            if (value(dx) < value(best)) best = dx;
+
+    std::vector<color::Rgb> expected(psf.kernel.pixels());
+    color::Xyz white{};
+    options.spectral.by_color = false;
+    constexpr double kStepNm = 6.5;
+    for (double nm = 380 + kStepNm / 2; nm < 770; nm += kStepNm) {
+        options.spectral.single_wavelength_nm = nm;
+        const wave::Psf one = eye_component(Component::kBloom, eye, grid, options);
+        const color::Rgb share = color::primary_shares(nm);
+        double light = 0;
+        for (std::size_t j = 0; j < 3; ++j) light += orange[j] * share[j];
+        color::Xyz xyz = color::cie_1931_observer(nm);
+        for (std::size_t c = 0; c < 3; ++c) {
+            xyz[c] *= color::relative_power(color::Illuminant::kD65, nm);
+            white[c] += xyz[c];
         }
-        return best;
-    };
-    // The first dark ring is at 1.22 lambda / D: 19 pixels for 545 nm, 21.1 for 605 nm.
-    const color::Rgb orange = {1, 0.25, 0};
-    const color::Rgb green = {0, 1, 0};
-    EXPECT_NEAR(darkest(orange, 0), 21.1, 1);
-    EXPECT_NEAR(darkest(green, 1), 19, 1);
-    EXPECT_GT(darkest(orange, 1), darkest(green, 1));
+        const color::Rgb rgb = color::rgb_from_xyz(xyz);
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            const double energy = light * static_cast<double>(one.kernel.plane(0)[i]);
+            for (std::size_t c = 0; c < 3; ++c) expected[i][c] += energy * rgb[c];
+        }
+    }
+    const color::Rgb scale = color::rgb_from_xyz(white);
+    double error = 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            double actual = 0;
+            for (std::size_t j = 0; j < 3; ++j) {
+                actual += orange[j] *
+                          static_cast<double>(psf.kernel.plane(static_cast<int>(3 * j + c))[i]);
+            }
+            error += std::abs(actual - expected[i][c] / scale[c]);
+            sum += std::abs(expected[i][c] / scale[c]);
+        }
+    }
+    EXPECT_LE(error, 0.01 * sum);
 }
 
 TEST(ColorPsfRings, NeedDaylight) {

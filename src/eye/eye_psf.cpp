@@ -41,8 +41,7 @@ Image scatter_patch(const ScatterPixels& scatter, const wave::KernelGrid& patch)
 }
 
 // energy[c] S over the whole kernel; the four quadrants are mirror images.
-void fill_scatter(const ScatterPixels& scatter, const std::vector<double>& energy,
-                  Image& kernel) {
+void fill_scatter(const ScatterPixels& scatter, const std::vector<double>& energy, Image& kernel) {
     const int half_width = kernel.width() / 2;
     const int half_height = kernel.height() / 2;
     std::vector<std::vector<float>> quadrant_rows(static_cast<std::size_t>(max_workers()));

@@ -348,7 +348,8 @@ void product_rest(const LinePlan& plan, std::size_t level, float* x, const float
                   int count) {
     const LinePass& pass = plan.passes[level + 1];
     if (pass.stride == 1) {
-        with_radix(pass.radix, [&]<int R>() HWY_ATTR { leaf_product<R, kSpectrum>(x, kernel, count); });
+        with_radix(pass.radix,
+                   [&]<int R>() HWY_ATTR { leaf_product<R, kSpectrum>(x, kernel, count); });
         return;
     }
     for (int block = 0; block < count; ++block) {

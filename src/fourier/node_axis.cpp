@@ -13,7 +13,9 @@ int padded(int needed) { return best_length(std::max(needed, 12)); }
 
 Support support(int node, int pixels, int nodes) {
     if (nodes == 1) return {0, pixels};
-    const auto position = [&](int n) { return static_cast<double>(n) * (pixels - 1) / (nodes - 1); };
+    const auto position = [&](int n) {
+        return static_cast<double>(n) * (pixels - 1) / (nodes - 1);
+    };
     const int first = node == 0 ? 0 : static_cast<int>(std::floor(position(node - 1))) + 1;
     const int last =
         node == nodes - 1 ? pixels - 1 : static_cast<int>(std::ceil(position(node + 1))) - 1;

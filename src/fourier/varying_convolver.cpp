@@ -152,9 +152,8 @@ class PartConvolver {
             const float row_share = share(node_blend(y, y_.pixels, y_.nodes), j);
             float* to = weights_.data() + row * static_cast<std::size_t>(x_.pixels);
             for (int x = 0; x < x_.pixels; ++x) {
-                to[x] = weights == nullptr
-                            ? row_share
-                            : row_share * weights[std::ptrdiff_t{y} * x_.pixels + x];
+                to[x] = weights == nullptr ? row_share
+                                           : row_share * weights[std::ptrdiff_t{y} * x_.pixels + x];
             }
         });
     }
@@ -187,11 +186,13 @@ class PartConvolver {
         const std::size_t first = pair / pairs * static_cast<std::size_t>(per_channel) + in_channel;
         const bool has_second = in_channel + 1 < static_cast<std::size_t>(per_channel);
         float* spectra = scratch + 2 * element() * static_cast<std::size_t>(x_.longest());
-        std::fill_n(sum_.data() + first * slab_floats_, (has_second ? 2U : 1U) * slab_floats_, 0.0F);
+        std::fill_n(sum_.data() + first * slab_floats_, (has_second ? 2U : 1U) * slab_floats_,
+                    0.0F);
         for (int i = 0; i < nodes_->columns; ++i) {
             if (empty_[index(i, j)] != 0) continue;
             const NodeSpan x(x_, i);
-            // Column spectra of kernel and picture are both kept doubled; rows and columns unscaled.
+            // Column spectra of kernel and picture are both kept doubled; rows and columns
+            // unscaled.
             const float scale =
                 0.25F / (static_cast<float>(x.plan->length) * static_cast<float>(y.plan->length));
             const float* kernel = kernel_columns(i) + first * kernel_slab_floats_;
@@ -231,11 +232,9 @@ class PartConvolver {
         parallel_for(column_batches(x_.pixels), [&](std::size_t batch, int worker) {
             simd_.columns_in(columns, source, static_cast<int>(batch), scratch_.of(worker));
         });
-        parallel_for(static_cast<std::size_t>(batches(per_channel, 2)) *
-                         static_cast<std::size_t>(channels_),
-                     [&](std::size_t pair, int worker) {
-                         convolve_slabs(j, y, pair, scratch_.of(worker));
-                     });
+        parallel_for(
+            static_cast<std::size_t>(batches(per_channel, 2)) * static_cast<std::size_t>(channels_),
+            [&](std::size_t pair, int worker) { convolve_slabs(j, y, pair, scratch_.of(worker)); });
         columns.weights = nullptr;
         columns.slabs = sum_.data();
         const ImageView target = rows_of(sum, y.first, y.size);
