@@ -117,6 +117,7 @@ void register_all() {
         add("textbook/" + name, textbook, kernel.width, kernel.height);
         add("aureole/" + name, aureole, kernel.width, kernel.height, 1);
         add("aureole_rgb_kernel/" + name, aureole, kernel.width, kernel.height, 3);
+        add("aureole_matrix_kernel/" + name, aureole, kernel.width, kernel.height, 9);
     }
     add("default_glare/apply", default_glare);
     add("varying_glare/apply", varying_glare);
