@@ -77,11 +77,7 @@ void EyeObserver::measure_field(const wave::VaryingPsf& psf, const eye::EyePsfOp
     grid.width = std::min(grid.width, side);
     grid.height = std::min(grid.height, side);
     std::size_t kernels = 0;
-    std::size_t bytes = 0;
-    for (const auto& part : psf.parts) {
-        kernels += part.kernels.size();
-        for (const Image& kernel : part.kernels) bytes += 3 * sizeof(float) * kernel.pixels();
-    }
+    for (const auto& part : psf.parts) kernels += part.halves.size();
     for (int i = 0; i < kPositions; ++i) {
         const int x = static_cast<int>(random.uniform() * psf.view.width);
         const int y = static_cast<int>(random.uniform() * psf.view.height);
@@ -107,7 +103,7 @@ void EyeObserver::measure_field(const wave::VaryingPsf& psf, const eye::EyePsfOp
     }
     field_report_ = {{"spacing_deg", field_spacing_deg_},
                      {"kernels", kernels},
-                     {"bytes", bytes},
+                     {"bytes", fourier::bytes(psf.parts)},
                      {"held_out_positions", kPositions},
                      {"error", energy > 0 ? difference / energy : 0.0}};
 }

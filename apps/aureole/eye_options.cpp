@@ -12,6 +12,12 @@
 #include "option_checks.h"
 
 namespace aureole::app {
+namespace {
+
+// --source-spectrum: not a lamp.
+constexpr const char* kByColor = "rgb";
+
+}  // namespace
 
 void EyeOptions::add_options(CLI::App& command) {
     group_ = command.add_option_group("The eye");
@@ -83,8 +89,9 @@ void EyeOptions::add_options_to_group() {
         ->capture_default_str();
     one_of(group.add_option("--source-spectrum", source_spectrum_,
                             "Spectrum of the lights: it makes the colours of diffraction. A light "
-                            "keeps its own colour in sum"),
-           {"d65", "tungsten", "sodium", "high-pressure-sodium", "mercury", "led"})
+                            "keeps its own colour in sum. rgb: each light has the smoothest "
+                            "spectrum of its colour (white: d65)"),
+           {"d65", "tungsten", "sodium", "high-pressure-sodium", "mercury", "led", kByColor})
         ->capture_default_str();
     seed_number(group.add_option("--seed", seed_, "Another seed is another eye"))
         ->type_name("N")
@@ -180,9 +187,14 @@ eye::Eye EyeOptions::eye(double metered_cd_m2, const View& view) const {
     return eye;
 }
 
+bool EyeOptions::by_color() const { return source_spectrum_ == kByColor; }
+
 eye::SpectralSampling EyeOptions::sampling() const {
     eye::SpectralSampling sampling;
-    sampling.illuminant = color::illuminant_from_name(source_spectrum_);
+    sampling.by_color = by_color();
+    if (!sampling.by_color) {
+        sampling.illuminant = color::illuminant_from_name(source_spectrum_);
+    }
     return sampling;
 }
 

@@ -50,6 +50,8 @@ class EyeOptions {
     eye::Eye eye(double metered_cd_m2, const View& view) const;
     // The light that it sees, by --source-spectrum.
     eye::SpectralSampling sampling() const;
+    // Whether each light has the spectrum of its own colour: PSFs are matrices then.
+    bool by_color() const;
     // Every value of that eye, and where it came from.
     nlohmann::ordered_json report(const eye::Eye& eye, double metered_cd_m2) const;
 

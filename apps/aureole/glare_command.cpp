@@ -181,6 +181,19 @@ void GlareCommand::check_eye() {
     refuse(motion.has_rate() && eye.needs_adaptation() ? "--fps" : "",
            "needs a luminance that is known for every frame: --adaptation with a table of `aureole "
            "meter` or a number, or --pupil");
+    if (eye.by_color()) {
+        const auto alone = [](const std::string& option) {
+            if (!option.empty()) {
+                throw InvalidArgument("--source-spectrum rgb: cannot be combined with " + option);
+            }
+        };
+        alone(field_spacing_deg != 0 ? "--field-varying" : "");
+        alone(spread.method == "fft" || spread.method == "direct" ? ""
+                                                                  : "--method " + spread.method);
+        alone(spread.surround == "same" ? "--surround same" : "");
+        alone(spread.resolution == "full" ? "" : "--resolution " + spread.resolution);
+        alone(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name);
+    }
     if (psf_file.empty()) return;
     const std::string option = preset_option->count() > 0   ? preset_option->get_name()
                                : !eye.first_given().empty() ? eye.first_given()

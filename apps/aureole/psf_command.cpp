@@ -124,6 +124,9 @@ void PsfCommand::check() {
         }
         return;
     }
+    refuse(eye_options.by_color() ? "--source-spectrum rgb" : "",
+           "makes a kernel for each pair of colours, which no kernel file holds; `aureole glare` "
+           "applies it");
     refuse(camera_options.first_given(), "is an option of the camera: needs --observer camera");
     motion_options.check();
     if (!motion_options.alive() && !eye_options.adaptation_file().empty()) {

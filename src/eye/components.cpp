@@ -12,6 +12,7 @@
 #include "aureole/base/units.h"
 #include "aureole/wave/diffraction.h"
 #include "aureole/wave/spectral_psf.h"
+#include "eye/kernel_checks.h"
 #include "eye/pupil_outline.h"
 #include "eye/stopwatch.h"
 
@@ -55,7 +56,8 @@ wave::KernelGrid reached_pixels(const wave::KernelGrid& grid, const wave::Apertu
 
 void multiply(Image& image, double factor) {
     const auto f = static_cast<float>(factor);
-    std::for_each_n(image.plane(0), 3 * image.pixels(), [&](float& value) { value *= f; });
+    const std::size_t values = static_cast<std::size_t>(image.channels()) * image.pixels();
+    std::for_each_n(image.plane(0), values, [&](float& value) { value *= f; });
 }
 
 // A field made of two real planes, without copying them.
@@ -110,8 +112,8 @@ Components::Components(const Eye& eye, const wave::KernelGrid& grid, const EyePs
       timings_(timings),
       field_(field),
       stage_start_(seconds()),
-      levels_(spectral_levels(options.spectral, grid)),
-      patch_(reached_pixels(grid, options.aperture, longest_wavelength_nm(levels_))),
+      lights_(levels_of_lights(options.spectral, grid)),
+      patch_(reached_pixels(grid, options.aperture, longest_wavelength_nm(lights_))),
       fft_(options.aperture.samples, options.aperture.samples) {
     finish_stage(&EyePsfTimings::transform, 0);
 }
@@ -155,9 +157,17 @@ double Components::sum_lit_rows(const Buffer& plane) const {
 
 Image Components::onto_pixels(const wave::PatternIntegral& pattern, wave::PixelRule rule,
                               float initial) {
-    Image out(patch_.width, patch_.height, 3);
-    if (initial != 0) std::fill_n(out.plane(0), 3 * out.pixels(), initial);
-    add_spectral(pattern, options_.aperture.extent_mm, rule, levels_, patch_, out);
+    Image out(patch_.width, patch_.height, channels());
+    for (std::size_t light = 0; light < lights_.size(); ++light) {
+        const int first = 3 * static_cast<int>(light);
+        for (int c = 0; c < 3; ++c) {
+            if (is_own_colour(first + c, channels())) {
+                std::fill_n(out.plane(first + c), out.pixels(), initial);
+            }
+        }
+        add_spectral(pattern, options_.aperture.extent_mm, rule, lights_[light], patch_,
+                     out.view().channel_range(first, 3));
+    }
     return out;
 }
 

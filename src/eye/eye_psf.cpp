@@ -41,8 +41,7 @@ Image scatter_patch(const ScatterPixels& scatter, const wave::KernelGrid& patch)
 }
 
 // energy[c] S over the whole kernel; the four quadrants are mirror images.
-void fill_scatter(const ScatterPixels& scatter, const std::array<double, 3>& energy,
-                  Image& kernel) {
+void fill_scatter(const ScatterPixels& scatter, const std::vector<double>& energy, Image& kernel) {
     const int half_width = kernel.width() / 2;
     const int half_height = kernel.height() / 2;
     std::vector<std::vector<float>> quadrant_rows(static_cast<std::size_t>(max_workers()));
@@ -51,7 +50,7 @@ void fill_scatter(const ScatterPixels& scatter, const std::array<double, 3>& ene
         quadrant.resize(static_cast<std::size_t>(half_width) + 1);
         const int dy = static_cast<int>(row);
         scatter.row(dy, half_width + 1, quadrant.data());
-        for (int c = 0; c < 3; ++c) {
+        for (int c = 0; c < kernel.channels(); ++c) {
             const auto scale = static_cast<float>(energy[static_cast<std::size_t>(c)]);
             float* below = kernel.row(half_height + dy, c) + half_width;
             for (int dx = 0; dx <= half_width; ++dx) {
@@ -65,6 +64,20 @@ void fill_scatter(const ScatterPixels& scatter, const std::array<double, 3>& ene
     });
 }
 
+// The three channels that white light sees.
+Image sum_of_lights(const Image& image) {
+    Image white(image.width(), image.height(), 3);
+    parallel_for(static_cast<std::size_t>(image.height()), [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
+        for (int channel = 0; channel < image.channels(); ++channel) {
+            const float* from = image.row(y, channel);
+            float* to = white.row(y, channel % 3);
+            for (int x = 0; x < image.width(); ++x) to[x] += from[x];
+        }
+    });
+    return white;
+}
+
 // Calls visit(kernel row segment, patch row, y, c) for every row of the patch.
 template <class Visit>
 void over_patch(Image& kernel, const wave::KernelGrid& patch, const Visit& visit) {
@@ -72,7 +85,7 @@ void over_patch(Image& kernel, const wave::KernelGrid& patch, const Visit& visit
     const int y0 = (kernel.height() - patch.height) / 2;
     parallel_for(static_cast<std::size_t>(patch.height), [&](std::size_t row, int) {
         const int y = static_cast<int>(row);
-        for (int c = 0; c < 3; ++c) visit(kernel.row(y0 + y, c) + x0, y, c);
+        for (int c = 0; c < kernel.channels(); ++c) visit(kernel.row(y0 + y, c) + x0, y, c);
     });
 }
 
@@ -83,12 +96,34 @@ void multiply_patch(Image& kernel, const wave::KernelGrid& patch, const Image& f
     });
 }
 
+// `weight`: of each of three colours.
 void add_patch(Image& kernel, const wave::KernelGrid& patch, const Image& term,
                const std::array<double, 3>& weight) {
     over_patch(kernel, patch, [&](float* k, int y, int c) {
         const float* t = term.row(y, c);
-        const auto w = static_cast<float>(weight[static_cast<std::size_t>(c)]);
+        const auto w = static_cast<float>(weight[static_cast<std::size_t>(c % 3)]);
         for (int x = 0; x < patch.width; ++x) k[x] += w * t[x];
+    });
+}
+
+// Gives S, which fills the kernel with the energy of white, the texture of the corona.
+void apply_texture(const Image& corona, const Image& scatter, double contrast,
+                   const std::array<double, 3>& energy, const wave::KernelGrid& patch,
+                   Image& kernel) {
+    if (kernel.channels() == 3) {
+        multiply_patch(kernel, patch, corona_texture(corona, scatter, contrast));
+        return;
+    }
+    // S itself has no colour; what the texture adds to it and takes from it has.
+    const Image white = sum_of_lights(corona);
+    const Image matrix =
+        texture_of_primaries(corona_texture(white, scatter, contrast), corona, white, scatter);
+    over_patch(kernel, patch, [&](float* k, int y, int channel) {
+        const auto e = static_cast<float>(energy[static_cast<std::size_t>(channel % 3)]);
+        const float own = is_own_colour(channel, kernel.channels()) ? 1.0F : 0.0F;
+        const float* s = scatter.row(y, 0);
+        const float* t = matrix.row(y, channel);
+        for (int x = 0; x < patch.width; ++x) k[x] += e * s[x] * (t[x] - own);
     });
 }
 
@@ -96,7 +131,7 @@ wave::Psf single_pattern(const wave::KernelGrid& grid, const wave::KernelGrid& p
                          const Image& pattern) {
     wave::Psf psf;
     psf.grid = grid;
-    psf.kernel = Image(grid.width, grid.height, 3);
+    psf.kernel = Image(grid.width, grid.height, pattern.channels());
     add_patch(psf.kernel, patch, pattern, {1, 1, 1});
     psf.off_kernel_energy = energy_outside(pattern);
     return psf;
@@ -160,35 +195,40 @@ wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOpti
     }
 
     const double start = seconds();
-    std::array<double, 3> rest = {1, 1, 1};  // 1 - c
+    const int channels = components.channels();
+    std::vector<double> rest;  // 1 - c. Of light in other colours than its own: -c
+    for (int channel = 0; channel < channels; ++channel) {
+        rest.push_back(is_own_colour(channel, channels) ? 1 : 0);
+    }
+    std::array<double, 3> rest_of_white = {1, 1, 1};
     const auto take = [&](const std::optional<Image>& pattern, double share) {
         if (!pattern) return;
         const auto sums = plane_sums(*pattern);
-        for (std::size_t c = 0; c < 3; ++c) rest[c] -= share * sums[c];
+        for (std::size_t c = 0; c < rest.size(); ++c) {
+            rest[c] -= share * sums[c];
+            rest_of_white[c % 3] -= share * sums[c];
+        }
     };
     take(halo, halo_share);
     take(streaks, streak_share);
 
     wave::Psf psf;
     psf.grid = grid;
-    psf.kernel = Image(grid.width, grid.height, 3);
+    psf.kernel = Image(grid.width, grid.height, channels);
     if (scatters) {
         const ScatterPixels scatter(
             ScatterPsf(eye.scatter, eye.age_years, eye.pigmentation, eye.pupil_diameter_mm), grid);
         fill_scatter(scatter, rest, psf.kernel);
         if (corona) {
-            multiply_patch(
-                psf.kernel, patch,
-                corona_texture(*corona, scatter_patch(scatter, patch), eye.corona_contrast));
+            apply_texture(*corona, scatter_patch(scatter, patch), eye.corona_contrast,
+                          rest_of_white, patch, psf.kernel);
         }
-        for (std::size_t c = 0; c < 3; ++c) {
-            psf.off_kernel_energy[c] = rest[c] * scatter.off_kernel_energy();
-        }
+        psf.off_kernel_energy.fill(scatter.off_kernel_energy());
     } else {
-        add_patch(psf.kernel, patch, *airy, rest);
+        add_patch(psf.kernel, patch, *airy, rest_of_white);
         psf.off_kernel_energy = energy_outside(*airy);
-        for (std::size_t c = 0; c < 3; ++c) psf.off_kernel_energy[c] *= rest[c];
     }
+    for (std::size_t c = 0; c < 3; ++c) psf.off_kernel_energy[c] *= rest_of_white[c];
     if (halo) add_patch(psf.kernel, patch, *halo, {halo_share, halo_share, halo_share});
     if (streaks) add_patch(psf.kernel, patch, *streaks, {streak_share, streak_share, streak_share});
     if (timings != nullptr) timings->scatter += seconds() - start;

@@ -123,6 +123,9 @@ void check(const View& view, const FieldPsfOptions& options) {
         throw InvalidArgument(what, fmt::format("{}", value),
                               fmt::format("must be {} to {} deg", low, high));
     };
+    if (options.psf.spectral.by_color) {
+        throw InvalidArgument("spectrum by colour", "on", "must be off where streaks vary");
+    }
     require("spacing of the nodes", options.spacing_deg, 0.5, 30);
     require("centre of streaks", options.centre_deg, 0.2, 5);
     require("reach of streaks", options.reach_deg, options.centre_deg, 45);
@@ -204,8 +207,8 @@ wave::VaryingPsf eye_field_psf(const Eye& eye, const View& view, const FieldPsfO
             for (int i = 0; i < part.columns; ++i) {
                 const FieldPosition field = field_position(view, place(i, part.columns, view.width),
                                                            place(j, part.rows, view.height));
-                part.kernels.push_back(
-                    windowed(streaks(eye, field, grid, sampling).kernel, window, outside, scale));
+                part.halves.push_back(fourier::right_half(
+                    windowed(streaks(eye, field, grid, sampling).kernel, window, outside, scale)));
             }
             if (progress == nullptr) continue;
             progress->report(outside ? "streaks: rays" : "streaks: centre", (j + 1.0) / part.rows);

@@ -31,8 +31,8 @@ Image noise(int width, int height, int channels, std::uint64_t seed) {
 KernelNodes nodes(int columns, int rows, int width, int height, int channels, std::uint64_t seed) {
     KernelNodes part{columns, rows, {}};
     for (int n = 0; n < columns * rows; ++n) {
-        part.kernels.push_back(
-            noise(width, height, channels, seed + static_cast<std::uint64_t>(n)));
+        part.halves.push_back(
+            right_half(noise(width, height, channels, seed + static_cast<std::uint64_t>(n))));
     }
     return part;
 }
@@ -117,13 +117,13 @@ TEST(VaryingConvolver, EqualsTheSumWithTheKernelOfEachSource) {
 }
 
 TEST(VaryingConvolver, WithEqualKernelsIsAConvolution) {
-    const Image kernel = noise(15, 9, 3, 3);
-    const KernelNodes part{3, 4, std::vector<Image>(12, kernel)};
+    const Image half = right_half(noise(15, 9, 3, 3));
+    const KernelNodes part{3, 4, std::vector<Image>(12, half)};
     const Image in = noise(64, 50, 3, 4);
     Image varying(64, 50, 3);
     VaryingConvolver(64, 50, 3, {part}).run(in, varying);
     Image plain(64, 50, 3);
-    Convolver(64, 50, 3, kernel).run(in, plain);
+    Convolver(64, 50, 3, whole_kernel(half)).run(in, plain);
     EXPECT_LT(worst_difference(varying, plain), 2e-6);
 }
 
@@ -138,6 +138,19 @@ TEST(VaryingConvolver, GivesTheSameBitsOnAnyNumberOfThreads) {
         convolver.run(in, second);
     }
     EXPECT_EQ(std::memcmp(first.plane(0), second.plane(0), 3 * first.pixels() * sizeof(float)), 0);
+}
+
+TEST(VaryingConvolver, HalvesAreTheMeanOfKernelAndHalfTurn) {
+    const Image kernel = noise(7, 5, 2, 11);
+    const Image even = whole_kernel(right_half(kernel));
+    for (int c = 0; c < 2; ++c) {
+        for (int y = 0; y < 5; ++y) {
+            for (int x = 0; x < 7; ++x) {
+                EXPECT_EQ(even.at(x, y, c),
+                          0.5F * (kernel.at(x, y, c) + kernel.at(6 - x, 4 - y, c)));
+            }
+        }
+    }
 }
 
 TEST(VaryingConvolver, BlendsSumToOneAndAreExactAtNodes) {
@@ -158,10 +171,11 @@ TEST(VaryingConvolver, BlendsSumToOneAndAreExactAtNodes) {
 TEST(VaryingConvolver, RefusesWhatItCannotHold) {
     const auto make = [](KernelNodes part) { VaryingConvolver(20, 10, 1, {std::move(part)}); };
     EXPECT_THROW(make(nodes(21, 1, 3, 3, 1, 1)), InvalidArgument);
-    EXPECT_THROW(make(nodes(2, 2, 4, 3, 1, 1)), InvalidArgument);
+    EXPECT_THROW(right_half(noise(4, 3, 1, 1)), InvalidArgument);
+    EXPECT_THROW(make({1, 1, {noise(3, 4, 1, 1)}}), InvalidArgument);
     EXPECT_THROW(make(nodes(2, 2, 3, 3, 3, 1)), InvalidArgument);
     KernelNodes missing = nodes(2, 2, 3, 3, 1, 1);
-    missing.kernels.pop_back();
+    missing.halves.pop_back();
     EXPECT_THROW(make(missing), InvalidArgument);
     EXPECT_THROW(VaryingConvolver(0, 10, 1, {}), InvalidArgument);
 }

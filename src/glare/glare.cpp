@@ -11,8 +11,8 @@
 #include "aureole/base/parallel.h"
 #include "aureole/fourier/convolver.h"
 #include "aureole/sources/clusters.h"
+#include "glare/kernel_sums.h"
 #include "glare/light_rule.h"
-#include "glare/luminance_kernel.h"
 #include "glare/spreading.h"
 
 namespace aureole::glare {
@@ -22,9 +22,22 @@ void check(const View& view, int channels, const wave::Psf& psf, const GlareOpti
     if (channels != 1 && channels != 3) {
         throw InvalidArgument("channels", std::to_string(channels), "must be 3 (RGB) or 1 (grey)");
     }
-    if (psf.kernel.channels() != 3) {
+    if (psf.kernel.channels() != 3 && psf.kernel.channels() != 9) {
         throw InvalidArgument("channels of the PSF", std::to_string(psf.kernel.channels()),
-                              "must be 3");
+                              "must be 3, or 9 for a matrix");
+    }
+    if (psf.kernel.channels() == 9 && channels == 3) {
+        if (options.method != Method::kFft && options.method != Method::kDirect) {
+            throw InvalidArgument("method", std::string(name_of(options.method)),
+                                  "must be fft or direct: the PSF is a matrix");
+        }
+        if (options.resolution != Resolution::kFull) {
+            throw InvalidArgument("resolution", std::string(name_of(options.resolution)),
+                                  "must be full: the PSF is a matrix");
+        }
+        if (options.surround != Surround::kDark) {
+            throw InvalidArgument("surround", "same", "must be dark: the PSF is a matrix");
+        }
     }
     if (!(options.threshold >= 0)) {
         throw InvalidArgument("threshold", std::to_string(options.threshold), "must be >= 0");

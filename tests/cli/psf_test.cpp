@@ -177,6 +177,49 @@ TEST_F(PsfFile, SpectraAreKnownAndOfTheEye) {
     EXPECT_FALSE(exists("k.exr"));
 }
 
+TEST_F(PsfFile, OfEveryColourAtOnceIsRefused) {
+    const Outcome outcome = run("psf -o k.exr --size 9 --source-spectrum rgb");
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_TRUE(names_all(outcome.err, {"--source-spectrum", "rgb", "aureole glare"}));
+}
+
+// White light is daylight, an orange one is not.
+TEST_F(PsfFile, OfEveryColourAtOnceIsThatOfDaylightForWhite) {
+    const std::string glare = "glare in.exr --fov 20 --pupil 7 --source-spectrum ";
+    Image in(48, 27, 3);
+    for (const bool white : {true, false}) {
+        in.at(24, 13, 0) = 1e4F;
+        in.at(24, 13, 1) = white ? 1e4F : 2e3F;
+        in.at(24, 13, 2) = white ? 1e4F : 0;
+        write("in.exr", in);
+        ASSERT_EQ(run(glare + "d65 -o d65.exr").exit_code, 0);
+        EXPECT_EQ(report(glare + "rgb -o rgb.exr")["parameters"]["source_spectrum"], "rgb");
+        const Image by_color = read("rgb.exr").image();
+        const Image daylight = read("d65.exr").image();
+        double apart = 0;
+        double light = 0;
+        for (int c = 0; c < 3; ++c) {
+            for (std::size_t i = 0; i < by_color.pixels(); ++i) {
+                if (i == 13 * 48 + 24) continue;
+                const double value = daylight.plane(c)[i];
+                apart += std::abs(by_color.plane(c)[i] - value);
+                light += value;
+            }
+        }
+        if (white) {
+            EXPECT_LT(apart, 2e-3 * light);
+        } else {
+            EXPECT_GT(apart, 1e-2 * light);
+        }
+    }
+    for (const std::string option : {"--method sprites", "--surround same", "--field-varying on"}) {
+        const Outcome outcome = run(glare + "rgb -o no.exr " + option);
+        EXPECT_NE(outcome.exit_code, 0);
+        EXPECT_TRUE(names_all(outcome.err, {"--source-spectrum rgb", option.substr(0, 8)}));
+        EXPECT_FALSE(exists("no.exr"));
+    }
+}
+
 // `aureole glare` sees lights of the same spectrum.
 TEST_F(PsfFile, OfALampAppliedByGlareIsTheEyeItself) {
     const std::string eye = " --fov 10 --pupil 7 --source-spectrum sodium";

@@ -1,5 +1,9 @@
 // Applying a point spread function to pictures.
 //
+// A PSF of three channels spreads each colour by itself; a matrix (wave/psf.h) also leads light to
+// other colours, as diffraction does with the light of a coloured source: kFft at full
+// resolution and kDirect, with a dark surround, and grey pictures as if they were white.
+//
 // The result is linear and unclipped, and adds nothing to the energy:
 //     out = in * PSF,
 // and with a threshold, a matte or a gain g, for the light that makes glare,
@@ -147,9 +151,9 @@ class Glare {
     // what lies beyond it counts as off the picture. The PSF is not kept.
     // Throws InvalidArgument for other channel counts, negative threshold or gain, and when the
     // PSF was made for another pitch or projection than the view's (by more than 0.1 %), for
-    // other options out of range, and for a reduced resolution with other methods
-    // than kFft. kAuto times the methods for some 100 ms, the
-    // first one of a process a little longer.
+    // other options out of range, for a reduced resolution with other methods than kFft, and for a
+    // matrix with another method, resolution or surround than above. kAuto times the methods for
+    // some 100 ms, the first one of a process a little longer.
     Glare(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options = {});
     ~Glare();
     Glare(Glare&&) noexcept;
