@@ -247,14 +247,16 @@ wave::Psf streaks_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsf
         parts.streaks ? std::min(parts.blocked_share * eye.streaks, kMostDiffractedShare) : 0;
     wave::Psf psf;
     psf.grid = grid;
-    psf.kernel = Image(grid.width, grid.height, 3);
+    const int channels = components.channels();
+    psf.kernel = Image(grid.width, grid.height, channels);
     if (parts.streaks) {
         add_patch(psf.kernel, components.patch(), *parts.streaks, {share, share, share});
         psf.off_kernel_energy = energy_outside(*parts.streaks);
         for (double& energy : psf.off_kernel_energy) energy *= share;
     }
-    for (int c = 0; c < 3; ++c) {
-        psf.kernel.at(grid.width / 2, grid.height / 2, c) += static_cast<float>(1 - share);
+    for (int channel = 0; channel < channels; ++channel) {
+        if (!is_own_colour(channel, channels)) continue;
+        psf.kernel.at(grid.width / 2, grid.height / 2, channel) += static_cast<float>(1 - share);
     }
     if (progress != nullptr) progress->report("eye psf", 1);
     return psf;
