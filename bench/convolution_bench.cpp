@@ -77,8 +77,8 @@ void varying_glare(benchmark::State& state) {
     psf.view = View::from_fov(kWidth, kHeight, 60, Projection::kPerspective);
     psf.base.grid = wave::KernelGrid::full_reach(psf.view);
     psf.base.kernel = noise(psf.base.grid.width, psf.base.grid.height, 3);
-    psf.parts.push_back({32, 18, std::vector<Image>(32 * 18, noise(33, 65, 3))});
-    psf.parts.push_back({9, 6, std::vector<Image>(9 * 6, noise(135, 269, 3))});
+    psf.parts.push_back({57, 32, std::vector<Image>(57 * 32, noise(16, 31, 3)), {}});
+    psf.parts.push_back({11, 7, std::vector<Image>(11 * 7, noise(135, 269, 3)), {}});
     glare::VaryingGlare glare(3, psf);
     const Image in = noise(kWidth, kHeight, 3);
     Image out(kWidth, kHeight, 3);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "aureole/base/error.h"
 #include "aureole/base/units.h"
+#include "aureole/lens/field_starburst.h"
 #include "aureole/lens/starburst.h"
 
 namespace aureole::app {
@@ -24,15 +26,27 @@ double flare_energy(const lens::FlareReport& report) {
 
 CameraObserver::CameraObserver(const CameraOptions& camera, const GhostOptions& ghosts,
                                const LightOptions& lights, const ViewOptions& view,
-                               const CameraSpread& spread, Session& session)
+                               const CameraSpread& spread, const FieldVaryingOption& field,
+                               Session& session)
     : camera_options_(camera),
       ghost_options_(ghosts),
       light_options_(lights),
       view_options_(view),
       spread_(spread),
+      field_(field),
       session_(session),
       camera_(camera.camera(session)),
-      flare_options_(ghosts.options(camera_.lens)) {}
+      flare_options_(ghosts.options(camera_.lens)) {
+    if (!field_.on()) return;
+    if (camera_.iris.is_image()) {
+        throw InvalidArgument(
+            "--field-varying: cannot be combined with --iris: a picture has no "
+            "outline to be seen from off the axis");
+    }
+    if (camera_.occluder) {
+        throw InvalidArgument("--field-varying: cannot be combined with --occluder");
+    }
+}
 
 View CameraObserver::view_of(const io::Picture& picture) {
     const io::Window& window = picture.display_window();
@@ -74,6 +88,21 @@ Spreading CameraObserver::spreading(const View& /*display*/, const View& data) {
     return result;
 }
 
+std::optional<wave::VaryingPsf> CameraObserver::varying_psf(const View& /*display*/,
+                                                            const View& data) {
+    if (!field_.on()) return std::nullopt;
+    lens::FieldStarburstOptions options;
+    if (field_.spacing_deg() > 0) options.spacing_deg = field_.spacing_deg();
+    options.rank = field_.rank();
+    wave::VaryingPsf psf = lens::field_starburst(
+        camera_.lens, camera_.iris, camera_.entrance_pupil_mm(), data, options, &session_);
+    field_report_ = {{"spacing_deg", options.spacing_deg},
+                     {"rank", options.rank},
+                     {"kernels", psf.parts.front().halves.size()},
+                     {"bytes", fourier::bytes(psf.parts)}};
+    return psf;
+}
+
 void CameraObserver::plan(const View& data) {
     if (!ghost_options_.any()) return;
     flare_.emplace(camera_.lens, camera_.iris, data, flare_options_, camera_.dirt());
@@ -113,6 +142,8 @@ void CameraObserver::report(nlohmann::ordered_json& json) const {
         parameters["halation_index"] = spread_.halation.refractive_index;
         parameters["halation_backing"] = spread_.halation.backing;
     }
+    parameters["field_varying"] = field_.report();
+    if (!field_report_.empty()) json["field_varying"] = field_report_;
     parameters.update(ghost_options_.report(flare_options_));
     if (!ghost_options_.any()) return;
     parameters.update(light_options_.report());

@@ -6,6 +6,7 @@
 #include "aureole/lens/flare.h"
 #include "aureole/lens/halation.h"
 #include "camera_options.h"
+#include "field_varying_option.h"
 #include "ghost_options.h"
 #include "light_options.h"
 #include "observer.h"
@@ -27,10 +28,11 @@ class CameraObserver : public Observer {
     // Loads lens, iris and all other files of the options: throws InvalidArgument, FileError.
     CameraObserver(const CameraOptions& camera, const GhostOptions& ghosts,
                    const LightOptions& lights, const ViewOptions& view, const CameraSpread& spread,
-                   Session& session);
+                   const FieldVaryingOption& field, Session& session);
 
     View view_of(const io::Picture& picture) override;
     Spreading spreading(const View& display, const View& data) override;
+    std::optional<wave::VaryingPsf> varying_psf(const View& display, const View& data) override;
     void plan(const View& data) override;
     // Writes --dump-ghosts too.
     const Image* ghosts(const io::Picture& picture, const View& display, const View& data,
@@ -43,6 +45,7 @@ class CameraObserver : public Observer {
     const LightOptions& light_options_;
     const ViewOptions& view_options_;
     CameraSpread spread_;
+    const FieldVaryingOption& field_;
     Session& session_;
     Camera camera_;
     lens::FlareOptions flare_options_;
@@ -52,6 +55,7 @@ class CameraObserver : public Observer {
     PictureLights lights_;
     View display_;
     double lens_field_deg_ = 0;
+    nlohmann::ordered_json field_report_;
 };
 
 }  // namespace aureole::app

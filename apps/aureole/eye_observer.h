@@ -5,9 +5,10 @@
 #include <string>
 
 #include "aureole/eye/anatomy.h"
-#include "aureole/eye/eye_psf.h"
+#include "aureole/eye/field_psf.h"
 #include "aureole/wave/varying_psf.h"
 #include "eye_options.h"
+#include "field_varying_option.h"
 #include "observer.h"
 #include "session.h"
 #include "spread_options.h"
@@ -31,14 +32,13 @@ Spreading spreading_of(const eye::Eye& eye, Passes passes, const View& data,
 
 class EyeObserver : public Observer {
   public:
-    // `field_spacing_deg`: between nodes at which streaks are computed; 0: the axis serves for all.
     EyeObserver(const EyeOptions& eye, const ViewOptions& view, Metering metering, Passes passes,
-                double field_spacing_deg, Session& session)
+                const FieldVaryingOption& field, Session& session)
         : options_(eye),
           view_(view),
           metering_(metering),
           passes_(passes),
-          field_spacing_deg_(field_spacing_deg),
+          field_(field),
           session_(session) {}
 
     View view_of(const io::Picture& picture) override { return view_.view_of(picture, session_); }
@@ -48,14 +48,14 @@ class EyeObserver : public Observer {
     void report(nlohmann::ordered_json& json) const override;
 
   private:
-    void measure_field(const wave::VaryingPsf& psf, const eye::EyePsfOptions& options);
+    void measure_field(const wave::VaryingPsf& psf, const eye::FieldPsfOptions& options);
     double adaptation_to(const io::Picture& picture) const;
 
     const EyeOptions& options_;
     const ViewOptions& view_;
     Metering metering_;
     Passes passes_;
-    double field_spacing_deg_;
+    const FieldVaryingOption& field_;
     Session& session_;
     std::optional<double> metered_cd_m2_;
     double white_luminance_cd_m2_ = 0;

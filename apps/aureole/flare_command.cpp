@@ -90,8 +90,9 @@ void FlareCommand::run() {
             throw InvalidArgument("--ghosts", "none", "leaves nothing to do without --starburst");
         }
     }
+    const FieldVaryingOption same_everywhere;
     CameraObserver observer(camera, ghosts, lights, view, {.starburst = starburst, .halation = {}},
-                            session);
+                            same_everywhere, session);
     PictureJob job(settings, spread, observer, session);
     job.process(list);
     const std::string summary = job.report();

@@ -2,10 +2,10 @@
 #include <memory>
 
 #include "aureole/base/error.h"
-#include "aureole/eye/field_psf.h"
 #include "camera_observer.h"
 #include "commands.h"
 #include "eye_observer.h"
+#include "field_varying_option.h"
 #include "film_options.h"
 #include "frame_files.h"
 #include "glare_preset.h"
@@ -52,8 +52,7 @@ struct GlareCommand {
     std::string preset = "physical";
     CLI::Option* preset_option = nullptr;
     std::string psf_file;
-    std::string field_varying = "off";
-    double field_spacing_deg = 0;  // 0: off
+    FieldVaryingOption field_varying;
 };
 
 void GlareCommand::add_options(CLI::App& command) {
@@ -96,13 +95,7 @@ void GlareCommand::add_options(CLI::App& command) {
                     "Use this kernel (EXR of `aureole psf`, or any odd-sized picture) instead of "
                     "an eye's")
         ->type_name("FILE");
-    group
-        .add_option("--field-varying", field_varying,
-                    "on: streaks turn with the position of each light, as lashes 12 mm before the "
-                    "pupil do; DEG: on, computed every so many degrees (0.5 to 30; on: 2.2); off: "
-                    "those of the picture's axis everywhere")
-        ->type_name("off|on|DEG")
-        ->capture_default_str();
+    field_varying.add_to(group);
     spread.add_options(group);
     settings.add_options(group, command);
     eye.add_options_but_preset(command);
@@ -117,20 +110,13 @@ void GlareCommand::add_options(CLI::App& command) {
 void GlareCommand::check() {
     view.check();
     spread.check();
-    field_spacing_deg = field_varying == "on"    ? eye::FieldPsfOptions().spacing_deg
-                        : field_varying == "off" ? 0
-                                                 : given_number(field_varying).value_or(-1);
-    if (field_spacing_deg != 0) {
-        if (!(field_spacing_deg >= 0.5 && field_spacing_deg <= 30)) {
-            throw InvalidArgument("--field-varying", field_varying,
-                                  "must be off, on, or 0.5 to 30 (deg)");
-        }
+    field_varying.check();
+    if (field_varying.on()) {
         const auto alone = [](const std::string& option) {
             if (!option.empty()) {
                 throw InvalidArgument("--field-varying: cannot be combined with " + option);
             }
         };
-        alone(observer_name == "camera" ? "--observer camera" : "");
         alone(psf_file.empty() ? "" : "--psf");
         alone(settings.matte_file.empty() ? "" : "--matte");
         alone(spread.first_selective());
@@ -187,7 +173,7 @@ void GlareCommand::check_eye() {
                 throw InvalidArgument("--source-spectrum rgb: cannot be combined with " + option);
             }
         };
-        alone(field_spacing_deg != 0 ? "--field-varying" : "");
+        alone(field_varying.on() ? "--field-varying" : "");
         alone(spread.method == "fft" || spread.method == "direct" ? ""
                                                                   : "--method " + spread.method);
         alone(spread.surround == "same" ? "--surround same" : "");
@@ -212,7 +198,7 @@ void GlareCommand::check_thesis() {
         }
     };
     alone(psf_file.empty() ? "" : "--psf");
-    alone(field_spacing_deg == 0 ? "" : "--field-varying");
+    alone(field_varying.on() ? "--field-varying" : "");
     alone(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name);
     alone(spread.surround == "dark" ? "" : "--surround " + spread.surround);
     if (frames.empty()) motion.check();
@@ -225,7 +211,8 @@ std::unique_ptr<Observer> GlareCommand::observer() {
     if (observer_name == "camera") {
         return std::make_unique<CameraObserver>(
             camera, ghosts, lights, view,
-            CameraSpread{.passes = spread.passes(), .halation = film.halation()}, session);
+            CameraSpread{.passes = spread.passes(), .halation = film.halation()}, field_varying,
+            session);
     }
     if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
     if (preset == "thesis") {
@@ -236,7 +223,7 @@ std::unique_ptr<Observer> GlareCommand::observer() {
         return std::make_unique<LivingEyeObserver>(eye, motion, view, spread.passes(), session);
     }
     const Metering metering = frames.empty() ? Metering::kEachPicture : Metering::kFirst;
-    return std::make_unique<EyeObserver>(eye, view, metering, spread.passes(), field_spacing_deg,
+    return std::make_unique<EyeObserver>(eye, view, metering, spread.passes(), field_varying,
                                          session);
 }
 

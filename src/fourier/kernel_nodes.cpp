@@ -29,6 +29,30 @@ void add_whole(const Image& half, float share, Image& out) {
 
 }  // namespace
 
+void KernelNodes::half_of(int node, const ImageView& out) const noexcept {
+    const std::size_t terms = mixture.empty() ? 1 : halves.size();
+    for (int c = 0; c < out.channels; ++c) {
+        for (int y = 0; y < out.height; ++y) {
+            for (std::size_t t = 0; t < terms; ++t) {
+                const auto n = static_cast<std::size_t>(node);
+                const float factor = mixture.empty() ? 1.0F : mixture[n * terms + t];
+                const float* from = halves[mixture.empty() ? n : t].row(y, c);
+                float* to = &out.at(0, y, c);
+                for (int x = 0; x < out.width; ++x) {
+                    to[x] = t == 0 ? factor * from[x] : to[x] + factor * from[x];
+                }
+            }
+        }
+    }
+}
+
+Image KernelNodes::half_of(int node) const {
+    const Image& first = halves.front();
+    Image half(first.width(), first.height(), first.channels());
+    half_of(node, half);
+    return half;
+}
+
 Image right_half(const Image& kernel) {
     const int width = kernel.width();
     const int height = kernel.height();
@@ -82,7 +106,8 @@ Image kernel_at(const std::vector<KernelNodes>& parts, int width, int height, in
                 const float share = (i == 0 ? 1 - across.second_share : across.second_share) *
                                     (j == 0 ? 1 - down.second_share : down.second_share);
                 if (share == 0) continue;
-                add_whole(part.half(across.first + i, down.first + j), share, result);
+                add_whole(part.half_of((down.first + j) * part.columns + across.first + i), share,
+                          result);
             }
         }
     }
@@ -92,6 +117,7 @@ Image kernel_at(const std::vector<KernelNodes>& parts, int width, int height, in
 std::size_t bytes(const std::vector<KernelNodes>& parts) {
     std::size_t sum = 0;
     for (const KernelNodes& part : parts) {
+        sum += part.mixture.size() * sizeof(float);
         for (const Image& half : part.halves) {
             sum += half.pixels() * static_cast<std::size_t>(half.channels()) * sizeof(float);
         }

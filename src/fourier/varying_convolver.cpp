@@ -21,6 +21,13 @@ std::string size_of(const Image& image) {
            std::to_string(image.channels());
 }
 
+// Whether every node has its kernel.
+bool complete(const KernelNodes& part) {
+    const auto nodes = static_cast<std::size_t>(part.nodes());
+    return part.mixture.empty() ? part.halves.size() == nodes
+                                : part.mixture.size() == nodes * part.halves.size();
+}
+
 void check(int width, int height, int channels, const std::vector<KernelNodes>& parts) {
     if (width <= 0 || height <= 0 || channels <= 0) {
         throw InvalidArgument("picture size",
@@ -30,13 +37,13 @@ void check(int width, int height, int channels, const std::vector<KernelNodes>& 
     }
     for (const KernelNodes& part : parts) {
         if (part.columns < 1 || part.rows < 1 || part.columns > width || part.rows > height ||
-            part.halves.size() !=
-                static_cast<std::size_t>(part.columns) * static_cast<std::size_t>(part.rows)) {
+            part.halves.empty() || !complete(part)) {
             throw InvalidArgument("nodes of a kernel",
                                   std::to_string(part.columns) + "x" + std::to_string(part.rows) +
                                       ", " + std::to_string(part.halves.size()) + " kernels",
-                                  "must be one kernel per node, and 1 to " + std::to_string(width) +
-                                      " x 1 to " + std::to_string(height) + " nodes");
+                                  "must be one kernel or mixture per node, and 1 to " +
+                                      std::to_string(width) + " x 1 to " + std::to_string(height) +
+                                      " nodes");
         }
         const Image& first = part.halves.front();
         for (const Image& half : part.halves) {
@@ -101,7 +108,13 @@ class PartConvolver {
                           static_cast<std::size_t>(nodes.columns)),
           weights_(static_cast<std::size_t>(width) * static_cast<std::size_t>(y_.largest)),
           ones_(static_cast<std::size_t>(channels), 1.0F) {
-        for (const Image& half : nodes.halves) empty_.push_back(is_empty(half) ? 1 : 0);
+        for (int i = 0; i < nodes.columns; ++i) {
+            mixed_.emplace_back(nodes.reach_x() + 1, 2 * nodes.reach_y() + 1, channels);
+        }
+        for (int n = 0; n < nodes.nodes(); ++n) {
+            nodes.half_of(n, mixed_.front());
+            empty_.push_back(is_empty(mixed_.front()) ? 1 : 0);
+        }
         for (int i = 0; i < nodes.columns; ++i) {
             const Support source = support(i, width, nodes.columns);
             shares_at_.push_back(shares_.size());
@@ -145,6 +158,11 @@ class PartConvolver {
                static_cast<std::size_t>(node) * slabs(y_.longest()) * kernel_slab_floats_;
     }
 
+    const Image& half_of(int i, int j) const {
+        return nodes_->mixture.empty() ? nodes_->halves[index(i, j)]
+                                       : mixed_[static_cast<std::size_t>(i)];
+    }
+
     // h_y times the pixel weights, over the source pixels of a row of nodes.
     void fill_weights(int j, const Support& source, const float* weights) noexcept {
         parallel_for(static_cast<std::size_t>(source.size), [&](std::size_t row, int) {
@@ -159,6 +177,12 @@ class PartConvolver {
     }
 
     void transform_kernel_columns(int j, const NodeSpan& y) noexcept {
+        if (!nodes_->mixture.empty()) {
+            parallel_for(mixed_.size(), [&](std::size_t i, int) {
+                const auto node = static_cast<int>(index(static_cast<int>(i), j));
+                nodes_->half_of(node, mixed_[i]);
+            });
+        }
         const std::size_t per_node = column_batches(x_.reach + 1);
         parallel_for(per_node * static_cast<std::size_t>(nodes_->columns),
                      [&](std::size_t item, int worker) {
@@ -173,7 +197,7 @@ class PartConvolver {
                                                   kernel_columns(i),
                                                   kernel_slab_floats_,
                                                   slabs_per_channel(y.plan->length)};
-                         simd_.columns_in(columns, seen(nodes_->half(i, j), x_.reach, y_.reach),
+                         simd_.columns_in(columns, seen(half_of(i, j), x_.reach, y_.reach),
                                           static_cast<int>(item % per_node), scratch_.of(worker));
                      });
     }
@@ -256,6 +280,7 @@ class PartConvolver {
     Buffer sum_;
     Buffer kernel_columns_;  // half-transformed kernels of a row of nodes
     Buffer weights_;
+    std::vector<Image> mixed_;  // kernels of a row of nodes, where they are mixtures
     std::vector<float> ones_;
     std::vector<char> empty_;             // nodes that send no light
     std::vector<float> shares_;           // h_x of each node over its source pixels

@@ -27,8 +27,8 @@ Spreading::Spreading(int width, int height, int channels, const Image& kernel,
             return;
         }
     }
-    share_inside_ = glare::share_inside(width, height,
-                                        channels == 3 ? kernel_of_primaries(kernel) : kernel);
+    share_inside_ =
+        glare::share_inside(width, height, channels == 3 ? kernel_of_primaries(kernel) : kernel);
     if (asked_ == Method::kFft || automatic) convolver_.emplace(width, height, channels, kernel);
     if (asked_ == Method::kDirect || asked_ == Method::kFft) return;
     const std::optional<FarKernel> split =

@@ -57,8 +57,10 @@ class KernelSums {
 // stays in the picture.
 void account(const fourier::KernelNodes& part, int channel, Image& taken, Image& inside) {
     std::vector<KernelSums> sums;
-    sums.reserve(part.halves.size());
-    for (const Image& half : part.halves) sums.emplace_back(fourier::whole_kernel(half), channel);
+    sums.reserve(static_cast<std::size_t>(part.nodes()));
+    for (int n = 0; n < part.nodes(); ++n) {
+        sums.emplace_back(fourier::whole_kernel(part.half_of(n)), channel);
+    }
     const int width = taken.width();
     const int height = taken.height();
     parallel_for(static_cast<std::size_t>(height), [&](std::size_t row, int) {

@@ -43,7 +43,7 @@ wave::Psf base_psf(const View& view) {
 }
 
 wave::VaryingPsf varying_psf(const View& view) {
-    wave::VaryingPsf psf{base_psf(view), {{3, 2, {}}, {1, 4, {}}}, view};
+    wave::VaryingPsf psf{base_psf(view), {{3, 2, {}, {}}, {1, 4, {}, {}}}, view};
     for (std::uint64_t n = 0; n < 6; ++n) {
         psf.parts[0].halves.push_back(fourier::right_half(noise(7, 5, 3, n, 0.02)));
     }

@@ -21,17 +21,27 @@ namespace aureole::fourier {
 struct KernelNodes {
     int columns = 1;
     int rows = 1;
-    // Row by row of nodes; all of one size, of odd height, and channel count: right_half() of the
-    // kernels.
+    // right_half() of kernels, all of one size, of odd height, and channel count: those of the
+    // nodes, row by row, or, with a mixture, terms of which every node's is a sum.
     std::vector<Image> halves;
+    // Empty, or the factors of the terms: node n has the sum of mixture[n halves.size() + t] times
+    // halves[t].
+    std::vector<float> mixture;
 
+    int nodes() const { return columns * rows; }
     int reach_x() const { return halves.front().width() - 1; }
     int reach_y() const { return halves.front().height() / 2; }
-    const Image& half(int column, int row) const {
-        return halves[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                      static_cast<std::size_t>(column)];
-    }
+    // The half of node n = row * columns + column; `out` has the size of the halves.
+    void half_of(int node, const ImageView& out) const noexcept;
+    Image half_of(int node) const;
 };
+
+// The same nodes as a mixture of their mean and `rank` principal components, by which the sum of
+// squared differences, each over the mean value there, is nearly the least that so many can reach
+// (subspace iteration: Halko, Martinsson, Tropp 2011, "Finding structure with randomness",
+// algorithm 4.4). Nodes that are no more than that are returned as they are.
+// Throws InvalidArgument unless rank is at least 1.
+KernelNodes principal_components(const KernelNodes& part, int rank);
 
 // The middle column of a kernel of odd size and all to the right of it, made even: the mean of the
 // kernel and its half turn. Throws InvalidArgument for an even size.
@@ -50,7 +60,7 @@ NodeBlend node_blend(int pixel, int pixels, int nodes);
 // largest.
 Image kernel_at(const std::vector<KernelNodes>& parts, int width, int height, int x, int y);
 
-// Memory of the kernels.
+// Memory of the kernels, or of terms and factors.
 std::size_t bytes(const std::vector<KernelNodes>& parts);
 
 }  // namespace aureole::fourier
