@@ -19,7 +19,6 @@ eye::Eye now() {
     eye::Eye eye;
     eye.pupil_diameter_mm = 6.2;
     eye.pose.lash_closure = 0.2;
-    eye.pose.lashes_bend = true;
     eye.eyelid = 0.1;
     return eye;
 }

@@ -20,13 +20,16 @@ eye::Flipbook checked_book(const std::string& path, const io::MappedFile& file) 
 
 // The option that gives a parameter of an eye.
 std::string option_of(const std::string& parameter) {
-    constexpr std::array<std::array<const char*, 2>, 7> kOptions = {{
+    constexpr std::array<std::array<const char*, 2>, 10> kOptions = {{
         {"age_years", "--age"},
         {"pigmentation", "--pigmentation"},
         {"scatter", "--scatter"},
         {"corona_contrast", "--corona-contrast (or --preset)"},
         {"eyelashes", "--eyelashes"},
         {"seed", "--seed"},
+        {"pupil.shape", "--pupil-shape"},
+        {"pupil.axis_ratio", "--pupil-shape ellipse:"},
+        {"pupil.rotation_deg", "--pupil-rotation"},
         {"source_spectrum", "--source-spectrum"},
     }};
     const auto* const found =

@@ -8,7 +8,7 @@ namespace aureole::eye {
 
 // Whether the pupil shows any of the lens fibres.
 inline bool shows_fibres(const Eye& eye) noexcept {
-    return eye.pupil_diameter_mm / 2 > eye.anatomy.gratings.inner_radius_mm &&
+    return pupil_axes(eye).long_mm / 2 > eye.anatomy.gratings.inner_radius_mm &&
            eye.anatomy.gratings.phase_rad != 0;
 }
 

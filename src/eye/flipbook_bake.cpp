@@ -37,6 +37,10 @@ std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& ras
                               "must be cie or ijspeert: a flipbook stores what the scatter does "
                               "not say");
     }
+    if (options.spectral.by_color) {
+        throw InvalidArgument("source spectrum", "rgb",
+                              "must be a lamp's: a flipbook stores no matrices");
+    }
     const FlipbookText text{raster, options.aperture, range, identity_of(eye, options.spectral)};
     const std::vector<FlipbookFrame> frames = frames_of(range);
     const Image envelope = flipbook_envelope(eye, range, raster);

@@ -156,7 +156,6 @@ FlipbookErrors errors_at_frames(const Flipbook& book, const Eye& eye, const EyeP
     for (const FlipbookFrame& frame : frames_of(book.range())) {
         if (frame.component != Component::kCorona) break;
         Eye now = eye_at(eye, frame);
-        now.pose.lashes_bend = true;
         const bool halo_stored = axes.halo_pupils.nodes > 0
                                      ? is_node(axes.halo_pupils, frame.pupil_mm)
                                      : frame.pupil_mm < kHaloFromMm;
@@ -189,7 +188,6 @@ FlipbookErrors errors_between_frames(const Flipbook& book, const Eye& eye,
         now.pose.lens_scale = 1 + random.uniform(-range.lens_scale_span, range.lens_scale_span);
         now.pose.vitreous_yaw_deg = random.uniform(-kMostTurnDeg, kMostTurnDeg);
         now.pose.vitreous_pitch_deg = random.uniform(-kMostTurnDeg, kMostTurnDeg);
-        now.pose.lashes_bend = true;
         now.pose.lash_closure = random.uniform(0, kMostClosure);
         now.eyelid = i % 2 == 0 ? 0 : now.pose.lash_closure;
         chosen.push_back(now);

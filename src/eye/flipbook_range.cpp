@@ -61,7 +61,6 @@ std::vector<FlipbookFrame> frames_of(const FlipbookRange& range) {
     }
     for (int p = 0; p < axes.streak_pupils.nodes; ++p) {
         FlipbookFrame frame{Component::kStreaks, axes.streak_pupils.at(p), 0, {}};
-        frame.pose.lashes_bend = true;
         frames.push_back(frame);
         for (const bool cover : {false, true}) {
             for (int lid = 1; lid < axes.closures.nodes; ++lid) {

@@ -126,13 +126,19 @@ std::vector<NamedValue> identity_of(const Eye& eye, const SpectralSampling& samp
     values.add("lashes.reach_sd", anatomy.lashes.reach_sd);
     values.add("lashes.curvature_per_mm", anatomy.lashes.curvature_per_mm);
     values.add("lashes.distance_mm", anatomy.lashes.distance_mm);
+    values.add("lashes.curled_per_mm", anatomy.lashes.curled_per_mm);
+    values.add("lashes.curl_deg", anatomy.lashes.curl_deg);
+    values.add("pupil.shape", static_cast<int>(anatomy.pupil.shape));
+    values.add("pupil.axis_ratio", anatomy.pupil.axis_ratio);
+    values.add("pupil.iris_mm", anatomy.pupil.iris_mm);
+    values.add("pupil.rotation_deg", anatomy.pupil.rotation_deg);
     values.add("lower_lid_share", anatomy.lower_lid_share);
     values.add("pupil_irregularity", anatomy.pupil_irregularity);
     values.add("bands", sampling.bands);
     values.add("band_spacing", sampling.spacing == color::WavelengthSpacing::kLogarithmic
                                    ? "logarithmic"
                                    : "linear");
-    values.add("source_spectrum", color::name_of(sampling.illuminant));
+    values.add("source_spectrum", sampling.by_color ? "rgb" : color::name_of(sampling.illuminant));
     values.add("single_wavelength_nm", sampling.single_wavelength_nm);
     return values.take();
 }
