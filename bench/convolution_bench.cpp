@@ -77,8 +77,8 @@ void varying_glare(benchmark::State& state) {
     psf.view = View::from_fov(kWidth, kHeight, 60, Projection::kPerspective);
     psf.base.grid = wave::KernelGrid::full_reach(psf.view);
     psf.base.kernel = noise(psf.base.grid.width, psf.base.grid.height, 3);
-    psf.parts.push_back({32, 18, std::vector<Image>(32 * 18, noise(65, 65, 3))});
-    psf.parts.push_back({9, 6, std::vector<Image>(9 * 6, noise(269, 269, 3))});
+    psf.parts.push_back({57, 32, std::vector<Image>(57 * 32, noise(16, 31, 3)), {}});
+    psf.parts.push_back({11, 7, std::vector<Image>(11 * 7, noise(135, 269, 3)), {}});
     glare::VaryingGlare glare(3, psf);
     const Image in = noise(kWidth, kHeight, 3);
     Image out(kWidth, kHeight, 3);
@@ -117,6 +117,7 @@ void register_all() {
         add("textbook/" + name, textbook, kernel.width, kernel.height);
         add("aureole/" + name, aureole, kernel.width, kernel.height, 1);
         add("aureole_rgb_kernel/" + name, aureole, kernel.width, kernel.height, 3);
+        add("aureole_matrix_kernel/" + name, aureole, kernel.width, kernel.height, 9);
     }
     add("default_glare/apply", default_glare);
     add("varying_glare/apply", varying_glare);

@@ -76,6 +76,35 @@ def whole_process(program):
           f"{idle[1]:.0f} to load libraries")
 
 
+def sprites(program):
+    """Light by light against transforms: sprites_bench's rows, by kind."""
+    with tempfile.TemporaryDirectory() as folder:
+        csv = pathlib.Path(folder) / "rows.csv"
+        for arguments in (["figure9"], ["auto", "1080", "129"], ["auto", "1080", "513"],
+                          ["auto", "1080", "full"], ["hybrid", "2160"]):
+            subprocess.run([program, *arguments, "--csv", csv], check=True, capture_output=True)
+        rows = [entry.split(";") for entry in csv.read_text().splitlines()]
+    of_kind = {kind: [cells for name, *cells in rows if name == kind]
+               for kind in ("figure9", "auto", "hybrid")}
+    times = {cells[0]: [float(ms) for ms in cells[1:11:2]] for cells in of_kind["figure9"]}
+    for picture, bar in (("polygon", ">= 4"), ("300 lights", ">= 1.5"), ("mixed", ">= 1.5")):
+        none, _, tree, bounded_none, bounded = times[picture]
+        row(f"figure 9, {picture}: tree, times faster than no clusters", none / tree, bar,
+            f"{none:.1f} / {tree:.1f} ms, {bounded_none / bounded:.1f} x with bounded error")
+    row("  any picture: tree, times the time without clusters",
+        max(max(tree / none, bounded / bounded_none)
+            for none, _, tree, bounded_none, bounded in times.values()), "<= 1.05")
+    # fft, sprites, hybrid, auto (first), auto (next)
+    costs = {f"{cells[2]}, {cells[1]}": [float(ms) for ms in cells[4:9]]
+             for cells in of_kind["auto"]}
+    worst = max(costs, key=lambda name: costs[name][3] / min(costs[name][:3]))
+    row("auto, 12 pictures x 3 kernels: times the best method, at most",
+        costs[worst][3] / min(costs[worst][:3]), "<= 1.1", worst)
+    _, fft, hybrid, error = (float(cell) for cell in of_kind["hybrid"][0])
+    row("hybrid, 2160p, 8 lights: times faster than transforms", fft / hybrid, ">= 1",
+        f"{fft:.1f} / {hybrid:.1f} ms, error {100 * error:.2f} %")
+
+
 def row(what, value, bar, detail=""):
     """One line; `bar` is like '>= 3' or '<= 2'."""
     sign, limit = bar.split()
@@ -121,6 +150,13 @@ def main():
     for bands, name in (("64", "64 bands"), ("0", "default bands")):
         row(f"eye PSF 1025x1025, {name}: times one FFTW transform",
             times[f"eye_psf/{bands}"] / fftw, "<= 6", ms(times[f"eye_psf/{bands}"], fftw))
+
+    times = medians(programs / "flipbook_bench", options.simd, max(3, options.rounds // 3))
+    row("eye PSF 511x511 from a flipbook: times faster than direct",
+        times["direct"] / times["play/raster"], ">= 20", ms(times["direct"], times["play/raster"]))
+    print(f"{'  the same, 3839x2159':<58} {times['direct'] / times['play/full_reach']:8.2f}"
+          f"{'':23}{ms(times['direct'], times['play/full_reach'])}")
+    sprites(programs / "sprites_bench")
 
     flares = programs / "flare_bench"
     times = medians(flares, options.simd, max(3, options.rounds // 3))

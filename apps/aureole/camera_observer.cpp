@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "aureole/base/error.h"
 #include "aureole/base/units.h"
+#include "aureole/lens/field_starburst.h"
 #include "aureole/lens/starburst.h"
 
 namespace aureole::app {
@@ -23,16 +25,28 @@ double flare_energy(const lens::FlareReport& report) {
 }  // namespace
 
 CameraObserver::CameraObserver(const CameraOptions& camera, const GhostOptions& ghosts,
-                               const LightOptions& lights, const ViewOptions& view, bool starburst,
+                               const LightOptions& lights, const ViewOptions& view,
+                               const CameraSpread& spread, const FieldVaryingOption& field,
                                Session& session)
     : camera_options_(camera),
       ghost_options_(ghosts),
       light_options_(lights),
       view_options_(view),
-      starburst_(starburst),
+      spread_(spread),
+      field_(field),
       session_(session),
       camera_(camera.camera(session)),
-      flare_options_(ghosts.options(camera_.lens)) {}
+      flare_options_(ghosts.options(camera_.lens)) {
+    if (!field_.on()) return;
+    if (camera_.iris.is_image()) {
+        throw InvalidArgument(
+            "--field-varying: cannot be combined with --iris: a picture has no "
+            "outline to be seen from off the axis");
+    }
+    if (camera_.occluder) {
+        throw InvalidArgument("--field-varying: cannot be combined with --occluder");
+    }
+}
 
 View CameraObserver::view_of(const io::Picture& picture) {
     const io::Window& window = picture.display_window();
@@ -60,19 +74,44 @@ View CameraObserver::view_of(const io::Picture& picture) {
     return view;
 }
 
-std::optional<wave::Psf> CameraObserver::psf(const View& /*display*/, const View& data) {
-    if (!starburst_) return std::nullopt;
-    return lens::starburst_psf(camera_.iris, camera_.entrance_pupil_mm(),
-                               wave::KernelGrid::full_reach(data), {}, camera_.dirt(), &session_);
+Spreading CameraObserver::spreading(const View& /*display*/, const View& data) {
+    if (!spread_.starburst) return {};
+    const wave::KernelGrid grid = wave::KernelGrid::full_reach(data);
+    Spreading result;
+    if (spread_.passes != Passes::kBloom) {
+        (spread_.passes == Passes::kOne ? result.rest : result.streaks) = lens::starburst_psf(
+            camera_.iris, camera_.entrance_pupil_mm(), grid, {}, camera_.dirt(), &session_);
+    }
+    if (spread_.passes == Passes::kBoth || spread_.passes == Passes::kBloom) {
+        result.rest = lens::halation_psf(spread_.halation, camera_.lens.efl_mm(), grid);
+    }
+    return result;
+}
+
+std::optional<wave::VaryingPsf> CameraObserver::varying_psf(const View& /*display*/,
+                                                            const View& data) {
+    if (!field_.on()) return std::nullopt;
+    lens::FieldStarburstOptions options;
+    if (field_.spacing_deg() > 0) options.spacing_deg = field_.spacing_deg();
+    options.rank = field_.rank();
+    wave::VaryingPsf psf = lens::field_starburst(
+        camera_.lens, camera_.iris, camera_.entrance_pupil_mm(), data, options, &session_);
+    field_report_ = {{"spacing_deg", options.spacing_deg},
+                     {"rank", options.rank},
+                     {"kernels", psf.parts.front().halves.size()},
+                     {"bytes", fourier::bytes(psf.parts)}};
+    return psf;
 }
 
 void CameraObserver::plan(const View& data) {
+    if (!ghost_options_.any()) return;
     flare_.emplace(camera_.lens, camera_.iris, data, flare_options_, camera_.dirt());
     ghosts_ = Image(data.width, data.height, 3);
 }
 
 const Image* CameraObserver::ghosts(const io::Picture& picture, const View& display,
                                     const View& data, const float* matte) {
+    if (!ghost_options_.any()) return nullptr;
     display_ = display;
     session_.timed("lights", [&] {
         lights_ = light_options_.lights(picture, display, data, matte, session_);
@@ -96,8 +135,17 @@ void CameraObserver::report(nlohmann::ordered_json& json) const {
     auto& parameters = json["parameters"];
     parameters.update(camera_options_.report(camera_));
     parameters["lens_fov_deg"] = lens_field_deg_;
-    parameters["starburst"] = starburst_;
+    parameters["starburst"] = spread_.starburst && spread_.passes != Passes::kBloom;
+    if (spread_.passes == Passes::kBoth || spread_.passes == Passes::kBloom) {
+        parameters["halation"] = spread_.halation.share;
+        parameters["halation_layer_mm"] = spread_.halation.layer_mm;
+        parameters["halation_index"] = spread_.halation.refractive_index;
+        parameters["halation_backing"] = spread_.halation.backing;
+    }
+    parameters["field_varying"] = field_.report();
+    if (!field_report_.empty()) json["field_varying"] = field_report_;
     parameters.update(ghost_options_.report(flare_options_));
+    if (!ghost_options_.any()) return;
     parameters.update(light_options_.report());
     if (lights_.searched) parameters["light_threshold"] = lights_.search.threshold;
     json["lights"] = report_of(lights_, display_);

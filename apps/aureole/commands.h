@@ -17,5 +17,6 @@ Run add_meter_command(CLI::App& app);
 Run add_psf_command(CLI::App& app);
 Run add_scene_command(CLI::App& app);
 Run add_gallery_command(CLI::App& app);
+Run add_bake_command(CLI::App& app);
 
 }  // namespace aureole::app

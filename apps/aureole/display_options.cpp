@@ -20,10 +20,11 @@ constexpr double kMostStops = 100;
 void DisplayOptions::add_options(CLI::App& command) {
     CLI::Option_group& group = *command.add_option_group("PNG and JPEG output");
     tone_map_option_ =
-        one_of(group.add_option("--tone-map", tone_map_,
-                                "none: clip; narkowicz, hill: fits of ACES; aces: its output "
-                                "transform; xyz: keeps hue; ocio: a configuration"),
-               {"none", "narkowicz", "hill", "aces", "xyz", "ocio"})
+        one_of(
+            group.add_option("--tone-map", tone_map_,
+                             "none: clip; narkowicz, hill, unity: fits of ACES; aces: its output "
+                             "transform; xyz: keeps hue; ocio: a configuration"),
+            {"none", "narkowicz", "hill", "aces", "xyz", "unity", "ocio"})
             ->capture_default_str();
     number(group.add_option("--exposure", exposure_ev_,
                             "Stops (default: attribute aureole:exposure_ev, else 0)"),

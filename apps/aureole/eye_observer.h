@@ -5,11 +5,13 @@
 #include <string>
 
 #include "aureole/eye/anatomy.h"
-#include "aureole/eye/eye_psf.h"
+#include "aureole/eye/field_psf.h"
 #include "aureole/wave/varying_psf.h"
 #include "eye_options.h"
+#include "field_varying_option.h"
 #include "observer.h"
 #include "session.h"
+#include "spread_options.h"
 #include "view_options.h"
 
 namespace aureole::app {
@@ -24,31 +26,36 @@ enum class Metering {
 // mean.
 double metered_cd_m2(const io::Picture& picture, double white_luminance_cd_m2);
 
+// The PSFs of an eye for pictures whose data window is seen as `data`.
+Spreading spreading_of(const eye::Eye& eye, Passes passes, const View& data,
+                       const eye::SpectralSampling& sampling, Session& session);
+
 class EyeObserver : public Observer {
   public:
-    // `field_spacing_deg`: between nodes at which streaks are computed; 0: the axis serves for all.
-    EyeObserver(const EyeOptions& eye, const ViewOptions& view, Metering metering,
-                double field_spacing_deg, Session& session)
+    EyeObserver(const EyeOptions& eye, const ViewOptions& view, Metering metering, Passes passes,
+                const FieldVaryingOption& field, Session& session)
         : options_(eye),
           view_(view),
           metering_(metering),
-          field_spacing_deg_(field_spacing_deg),
+          passes_(passes),
+          field_(field),
           session_(session) {}
 
     View view_of(const io::Picture& picture) override { return view_.view_of(picture, session_); }
     bool adapt(const io::Picture& picture) override;
-    std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    Spreading spreading(const View& display, const View& data) override;
     std::optional<wave::VaryingPsf> varying_psf(const View& display, const View& data) override;
     void report(nlohmann::ordered_json& json) const override;
 
   private:
-    void measure_field(const wave::VaryingPsf& psf, const eye::EyePsfOptions& options);
+    void measure_field(const wave::VaryingPsf& psf, const eye::FieldPsfOptions& options);
     double adaptation_to(const io::Picture& picture) const;
 
     const EyeOptions& options_;
     const ViewOptions& view_;
     Metering metering_;
-    double field_spacing_deg_;
+    Passes passes_;
+    const FieldVaryingOption& field_;
     Session& session_;
     std::optional<double> metered_cd_m2_;
     double white_luminance_cd_m2_ = 0;
@@ -62,7 +69,7 @@ class KernelObserver : public Observer {
         : file_(std::move(file)), view_(view), session_(session) {}
 
     View view_of(const io::Picture& picture) override;
-    std::optional<wave::Psf> psf(const View& display, const View& data) override;
+    Spreading spreading(const View& display, const View& data) override;
     void report(nlohmann::ordered_json& json) const override;
 
   private:

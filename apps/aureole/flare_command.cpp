@@ -81,7 +81,18 @@ void FlareCommand::run() {
     ghosts.check();
     ghosts.check_pictures(list.size());
     lights.check();
-    CameraObserver observer(camera, ghosts, lights, view, starburst, session);
+    if (!ghosts.any()) {
+        const std::string option = lights.first_given();
+        if (!option.empty()) {
+            throw InvalidArgument(option + ": has no effect with --ghosts none");
+        }
+        if (!starburst) {
+            throw InvalidArgument("--ghosts", "none", "leaves nothing to do without --starburst");
+        }
+    }
+    const FieldVaryingOption same_everywhere;
+    CameraObserver observer(camera, ghosts, lights, view, {.starburst = starburst, .halation = {}},
+                            same_everywhere, session);
     PictureJob job(settings, spread, observer, session);
     job.process(list);
     const std::string summary = job.report();

@@ -85,7 +85,6 @@ Panel with_lids(Panel panel, double closure, const std::string& label) {
     panel.label = label;
     const double open = eye::open_share(panel.eye);
     panel.eye.eyelid = closure;
-    panel.eye.pose.lashes_bend = true;
     panel.light_share = eye::open_share(panel.eye) / open;
     return panel;
 }

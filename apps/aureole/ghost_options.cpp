@@ -53,8 +53,8 @@ void GhostOptions::add_options(CLI::App& command) {
         one_of(group_->add_option("--ghosts", method_,
                                   "matrix: linear optics, fast; traced: exact rays, with folds and "
                                   "dispersion; hybrid: matrix for the ghosts in which it agrees "
-                                  "with rays (default)"),
-               {"matrix", "traced", "hybrid"});
+                                  "with rays (default); none: no ghosts"),
+               {"matrix", "traced", "hybrid", "none"});
     pairs_option_ = one_of(
         group_->add_option("--pairs", pairs_,
                            "Which two surfaces reflect. same-side: both before or both behind the "
@@ -129,7 +129,8 @@ std::string GhostOptions::first_given() const {
 }
 
 GhostMethod GhostOptions::method() const {
-    return lens::ghost_method_from_name(method_.value_or(preset_ == "blog" ? "matrix" : "hybrid"));
+    const std::string fallback = preset_ == "blog" ? "matrix" : "hybrid";
+    return lens::ghost_method_from_name(any() ? method_.value_or(fallback) : fallback);
 }
 
 GhostSet GhostOptions::set() const {
@@ -143,7 +144,19 @@ void GhostOptions::refuse_with_blog(const CLI::Option* option, const char* unles
                           std::string("contradicts --preset blog, which is ") + unless);
 }
 
+void GhostOptions::refuse_without_ghosts(const CLI::App& group) const {
+    for (const CLI::Option* option : group.get_options()) {
+        if (option->count() == 0 || option == method_option_) continue;
+        throw InvalidArgument(option->get_name(), option->results().front(),
+                              "has no effect with --ghosts none");
+    }
+}
+
 void GhostOptions::check() const {
+    if (!any()) {
+        refuse_without_ghosts(*group_);
+        refuse_without_ghosts(*look_group_);
+    }
     refuse_with_blog(method_option_, "matrix");
     refuse_with_blog(pairs_option_, "same-side");
     for (const CLI::Option* option : ray_options_) {
@@ -192,6 +205,7 @@ void GhostOptions::dump(const std::string& lens_name, const lens::Lens& lens,
 }
 
 nlohmann::ordered_json GhostOptions::report(const lens::FlareOptions& options) const {
+    if (!any()) return {{"preset", preset_}, {"ghosts", "none"}};
     nlohmann::ordered_json json = {{"preset", preset_},
                                    {"ghosts", name_of(options.method)},
                                    {"pairs", options.set == GhostSet::kAll ? "all" : "same-side"},

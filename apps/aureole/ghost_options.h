@@ -21,6 +21,8 @@ class GhostOptions {
 
     // The first of these options that was given, or nothing.
     std::string first_given() const;
+    // Whether there are to be ghosts: not with --ghosts none.
+    bool any() const { return method_ != "none"; }
     // Throws InvalidArgument for options that contradict each other, FileError for a --dump-ghosts
     // that cannot be written.
     void check() const;
@@ -43,6 +45,8 @@ class GhostOptions {
     lens::GhostMethod method() const;
     lens::GhostSet set() const;
     void refuse_with_blog(const CLI::Option* option, const char* unless) const;
+
+    void refuse_without_ghosts(const CLI::App& group) const;
 
     CLI::Option_group* group_ = nullptr;
     CLI::Option_group* look_group_ = nullptr;

@@ -2,26 +2,39 @@
 #include <memory>
 
 #include "aureole/base/error.h"
-#include "aureole/eye/field_psf.h"
 #include "camera_observer.h"
 #include "commands.h"
 #include "eye_observer.h"
+#include "field_varying_option.h"
+#include "film_options.h"
 #include "frame_files.h"
+#include "glare_preset.h"
 #include "living_eye_observer.h"
 #include "motion_options.h"
 #include "option_checks.h"
 #include "picture_job.h"
+#include "thesis_observer.h"
 
 namespace aureole::app {
 namespace {
 
 constexpr const char* kFallbackLens = "heliar";
 
+// Unless `option` is empty.
+void refuse(const std::string& option, const std::string& why) {
+    if (!option.empty()) throw InvalidArgument(option + ": " + why);
+}
+
 struct GlareCommand {
     void add_options(CLI::App& command);
     void run();
     void check();
+    void check_camera();
+    void check_eye();
+    void check_thesis();
     std::unique_ptr<Observer> observer();
+
+    CLI::App* command_line = nullptr;
 
     Session session;
     PictureSettings settings;
@@ -30,6 +43,7 @@ struct GlareCommand {
     EyeOptions eye;
     MotionOptions motion;
     CameraOptions camera;
+    FilmOptions film;
     GhostOptions ghosts;
     LightOptions lights;
     std::vector<std::string> inputs;
@@ -38,11 +52,12 @@ struct GlareCommand {
     std::string preset = "physical";
     CLI::Option* preset_option = nullptr;
     std::string psf_file;
-    std::string field_varying = "off";
-    double field_spacing_deg = 0;  // 0: off
+    std::string book_file;
+    FieldVaryingOption field_varying;
 };
 
 void GlareCommand::add_options(CLI::App& command) {
+    command_line = &command;
     command
         .add_option("INPUT", inputs,
                     "Linear HDR pictures, or a numbered sequence (shot.%04d.exr, shot.####.exr) "
@@ -60,12 +75,18 @@ void GlareCommand::add_options(CLI::App& command) {
                               "iris, and the ghosts of a lens"),
            {"eye", "camera"})
         ->capture_default_str();
-    preset_option =
-        one_of(command.add_option("--preset", preset,
-                                  "physical: as measured; vivid (eye): what people say they see "
-                                  "(corona contrast 2.5 to 4, streaks x1.5); blog (camera): ghosts "
-                                  "as drawn by a game, faded polygons of one colour each"),
-               {"physical", "vivid", "blog"});
+    preset_option = one_of(
+        command.add_option(
+            "--preset", preset,
+            "physical: as measured; vivid (eye): what people say they see "
+            "(corona contrast 2.5 to 4, streaks x1.5); thesis (eye): the look of "
+            "\"Physically-based Real-time Glare\": bright pixels only, saturated needles, halo "
+            "and streaks, added; sikachev: streaks of "
+            "what is brighter than 1, as clusters, then bloom (--passes both "
+            "--method sprites --cluster-error 0.001 --threshold 1 --tone-map "
+            "xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): ghosts as "
+            "drawn by a game, faded polygons of one colour each"),
+        {"physical", "vivid", "thesis", "sikachev", "blog"});
     preset_option->capture_default_str();
     view.add_options(command, "60, or the lens's for a camera");
     view.add_white_luminance_option(command);
@@ -76,69 +97,78 @@ void GlareCommand::add_options(CLI::App& command) {
                     "an eye's")
         ->type_name("FILE");
     group
-        .add_option("--field-varying", field_varying,
-                    "on: streaks turn with the position of each light, as lashes 12 mm before the "
-                    "pupil do; DEG: on, computed every so many degrees (0.5 to 30; on: 2.2); off: "
-                    "those of the picture's axis everywhere")
-        ->type_name("off|on|DEG")
-        ->capture_default_str();
+        .add_option("--book", book_file,
+                    "With --time or --fps: PSFs of the eye that moves from this flipbook of "
+                    "`aureole bake`, instead of computing each")
+        ->type_name("FILE");
+    field_varying.add_to(group);
     spread.add_options(group);
     settings.add_options(group, command);
     eye.add_options_but_preset(command);
     motion.add_options(command);
     camera.add_options(command, kFallbackLens);
+    film.add_options(command);
     lights.add_options(command);
     ghosts.add_options(command);
     session.add_options(command);
 }
 
 void GlareCommand::check() {
-    const auto refuse = [](const std::string& option, const std::string& why) {
-        if (!option.empty()) throw InvalidArgument(option + ": " + why);
-    };
     view.check();
     spread.check();
-    field_spacing_deg = field_varying == "on"    ? eye::FieldPsfOptions().spacing_deg
-                        : field_varying == "off" ? 0
-                                                 : given_number(field_varying).value_or(-1);
-    if (field_spacing_deg != 0) {
-        if (!(field_spacing_deg >= 0.5 && field_spacing_deg <= 30)) {
-            throw InvalidArgument("--field-varying", field_varying,
-                                  "must be off, on, or 0.5 to 30 (deg)");
-        }
+    field_varying.check();
+    if (field_varying.on()) {
         const auto alone = [](const std::string& option) {
             if (!option.empty()) {
                 throw InvalidArgument("--field-varying: cannot be combined with " + option);
             }
         };
-        alone(observer_name == "camera" ? "--observer camera" : "");
         alone(psf_file.empty() ? "" : "--psf");
         alone(settings.matte_file.empty() ? "" : "--matte");
         alone(spread.first_selective());
         alone(motion.first_given());
     }
     if (observer_name == "camera") {
-        refuse(eye.first_given(), "is an option of the eye: leave it out with --observer camera");
-        refuse(motion.first_given(),
-               "is an option of the eye: leave it out with --observer camera");
-        refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
-        refuse(view.white_luminance_given() ? "--white-luminance" : "",
-               "matters for the eye's pupil only: leave it out with --observer camera");
-        refuse(preset == "vivid" ? "--preset vivid" : "", "needs --observer eye");
-        ghosts.set_preset(preset);
-        ghosts.check();
-        lights.check();
-        return;
+        check_camera();
+    } else {
+        check_eye();
     }
+}
+
+void GlareCommand::check_camera() {
+    refuse(eye.first_given(), "is an option of the eye: leave it out with --observer camera");
+    refuse(motion.first_given(), "is an option of the eye: leave it out with --observer camera");
+    refuse(psf_file.empty() ? "" : "--psf", "replaces the eye: leave out --observer camera");
+    refuse(view.white_luminance_given() ? "--white-luminance" : "",
+           "matters for the eye's pupil only: leave it out with --observer camera");
+    refuse(book_file.empty() ? "" : "--book", "needs --observer eye");
+    refuse(preset == "vivid" || preset == "thesis" ? "--preset " + preset : "",
+           "needs --observer eye");
+    const Passes passes = spread.passes();
+    refuse(passes == Passes::kOne || passes == Passes::kStreaks ? film.first_given() : "",
+           "needs --passes both or bloom");
+    ghosts.set_preset(preset);
+    ghosts.check();
+    refuse(ghosts.any() ? "" : lights.first_given(), "has no effect with --ghosts none");
+    lights.check();
+}
+
+void GlareCommand::check_eye() {
     for (const std::string& option :
-         {camera.first_given(), lights.first_given(), ghosts.first_given()}) {
+         {camera.first_given(), film.first_given(), lights.first_given(), ghosts.first_given()}) {
         refuse(option, "is an option of the camera: needs --observer camera");
     }
     refuse(preset == "blog" ? "--preset blog" : "", "needs --observer camera");
-    eye.set_preset(preset);
+    if (preset == "thesis") {
+        check_thesis();
+        return;
+    }
+    eye.set_preset(preset == "vivid" ? "vivid" : "physical");
     eye.check();
     motion.check();
     if (!motion.alive()) {
+        refuse(book_file.empty() ? "" : "--book " + book_file,
+               "is for an eye that moves: needs --time or --fps");
         refuse(eye.adaptation_file().empty() ? "" : "--adaptation " + eye.adaptation_file(),
                "is a table over time: needs --time or --fps");
     }
@@ -146,6 +176,23 @@ void GlareCommand::check() {
     refuse(motion.has_rate() && eye.needs_adaptation() ? "--fps" : "",
            "needs a luminance that is known for every frame: --adaptation with a table of `aureole "
            "meter` or a number, or --pupil");
+    if (eye.by_color()) {
+        const auto alone = [](const std::string& option) {
+            if (!option.empty()) {
+                throw InvalidArgument("--source-spectrum rgb: cannot be combined with " + option);
+            }
+        };
+        alone(field_varying.on() ? "--field-varying" : "");
+        alone(spread.method == "fft" || spread.method == "direct" ? ""
+                                                                  : "--method " + spread.method);
+        alone(spread.surround == "same" ? "--surround same" : "");
+        alone(spread.resolution == "full" ? "" : "--resolution " + spread.resolution);
+        alone(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name);
+        alone(book_file.empty() ? "" : "--book");
+    }
+    refuse(book_file.empty() || spread.passes() == Passes::kOne ? ""
+                                                                : "--passes " + spread.passes_name,
+           "cannot be combined with --book: it holds the PSF of everything");
     if (psf_file.empty()) return;
     const std::string option = preset_option->count() > 0   ? preset_option->get_name()
                                : !eye.first_given().empty() ? eye.first_given()
@@ -153,24 +200,58 @@ void GlareCommand::check() {
     if (!option.empty()) {
         throw InvalidArgument("--psf", psf_file, "replaces the eye: leave out " + option);
     }
+    refuse(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name,
+           "needs an eye or a camera: leave out --psf");
+}
+
+void GlareCommand::check_thesis() {
+    const auto alone = [](const std::string& option) {
+        if (!option.empty()) {
+            throw InvalidArgument("--preset thesis: cannot be combined with " + option);
+        }
+    };
+    alone(psf_file.empty() ? "" : "--psf");
+    alone(field_varying.on() ? "--field-varying" : "");
+    alone(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name);
+    alone(book_file.empty() ? "" : "--book");
+    alone(spread.surround == "dark" ? "" : "--surround " + spread.surround);
+    if (frames.empty()) motion.check();
+    eye.check();
+    eye.set_default_pupil_model("thesis");
+    spread.set_thesis_look();
 }
 
 std::unique_ptr<Observer> GlareCommand::observer() {
     if (observer_name == "camera") {
-        constexpr bool kStarburst = true;
-        return std::make_unique<CameraObserver>(camera, ghosts, lights, view, kStarburst, session);
+        return std::make_unique<CameraObserver>(
+            camera, ghosts, lights, view,
+            CameraSpread{.passes = spread.passes(), .halation = film.halation()}, field_varying,
+            session);
     }
     if (!psf_file.empty()) return std::make_unique<KernelObserver>(psf_file, view, session);
-    if (motion.alive()) return std::make_unique<LivingEyeObserver>(eye, motion, view, session);
+    if (preset == "thesis") {
+        const bool moving = motion.alive() || !frames.empty();
+        return std::make_unique<ThesisObserver>(eye, motion, view, moving, session);
+    }
+    if (motion.alive()) {
+        return std::make_unique<LivingEyeObserver>(eye, motion, view, spread.passes(), book_file,
+                                                   session);
+    }
     const Metering metering = frames.empty() ? Metering::kEachPicture : Metering::kFirst;
-    return std::make_unique<EyeObserver>(eye, view, metering, field_spacing_deg, session);
+    return std::make_unique<EyeObserver>(eye, view, metering, spread.passes(), field_varying,
+                                         session);
 }
 
 void GlareCommand::run() {
     session.start();
     std::vector<FrameFiles> list =
         frame_files(inputs, settings.output.paths(), settings.side_by_side_file, frames);
-    for (FrameFiles& frame : list) frame.time_s = motion.time_s(frame.number);
+    apply_preset(preset, observer_name, *command_line);
+    const bool turns_pages = preset == "thesis" && !motion.alive();
+    for (FrameFiles& frame : list) {
+        frame.time_s =
+            turns_pages ? ThesisObserver::time_of_frame(frame.number) : motion.time_s(frame.number);
+    }
     settings.prepare(list);
     check();
     ghosts.check_pictures(list.size());
@@ -178,7 +259,9 @@ void GlareCommand::run() {
     PictureJob job(settings, spread, *who, session);
     job.process(list);
     const std::string summary = job.report();
-    session.json()["parameters"]["observer"] = observer_name;
+    auto& parameters = session.json()["parameters"];
+    parameters["observer"] = observer_name;
+    if (psf_file.empty()) parameters["preset"] = preset;
     session.finish(summary);
 }
 

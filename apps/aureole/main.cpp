@@ -64,10 +64,10 @@ int run(int argc, char** argv) {
     app.require_subcommand(0, 1);
 
     using namespace aureole::app;
-    std::vector<Run> commands = {add_glare_command(app), add_flare_command(app),
-                                 add_lens_command(app),  add_ibl_command(app),
-                                 add_meter_command(app), add_psf_command(app),
-                                 add_scene_command(app), add_gallery_command(app)};
+    std::vector<Run> commands = {
+        add_glare_command(app), add_flare_command(app), add_lens_command(app),
+        add_ibl_command(app),   add_meter_command(app), add_psf_command(app),
+        add_scene_command(app), add_bake_command(app),  add_gallery_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -36,8 +36,9 @@ eye::BlinkSettings blinks_from(const std::string& text) {
 }  // namespace
 
 void MotionOptions::add_options(CLI::App& command) {
+    needs_ = "--time or --fps";
     group_ = command.add_option_group("The eye in motion",
-                                      "With --time or --fps the pupil, the lens and the lids move");
+                                      "With " + needs_ + " the pupil, the lens and the lids move");
     number(group_->add_option("--time", time_s_,
                               "Moment at which the eye looks; with --fps, of frame 0"))
         ->type_name("S");
@@ -45,6 +46,18 @@ void MotionOptions::add_options(CLI::App& command) {
                                        "Frames per second: each frame has its own moment, by its "
                                        "number"))
         ->type_name("F");
+    add_movements();
+}
+
+void MotionOptions::add_options_of_a_moment(CLI::App& command) {
+    needs_ = "--time";
+    group_ = command.add_option_group("The eye in motion",
+                                      "With " + needs_ + " the pupil, the lens and the lids move");
+    number(group_->add_option("--time", time_s_, "Moment at which the eye looks"))->type_name("S");
+    add_movements();
+}
+
+void MotionOptions::add_movements() {
     group_
         ->add_option("--motion", motion_,
                      "Turns of head and eye, which the vitreous follows: saccades, or a table with "
@@ -65,10 +78,14 @@ void MotionOptions::add_options(CLI::App& command) {
 
 std::string MotionOptions::first_given() const { return app::first_given(*group_); }
 
+bool MotionOptions::given(const std::string& option) const {
+    return group_->get_option(option)->count() > 0;
+}
+
 void MotionOptions::check() const {
     const std::string option = first_given();
     if (!option.empty() && !alive()) {
-        throw InvalidArgument(option + ": is about an eye that moves: needs --time or --fps");
+        throw InvalidArgument(option + ": is about an eye that moves: needs " + needs_);
     }
 }
 

@@ -12,15 +12,21 @@ namespace aureole::app {
 
 class MotionOptions {
   public:
+    // For commands that render pictures; each frame has its moment.
     void add_options(CLI::App& command);
+    // For commands that know one moment only: no --fps.
+    void add_options_of_a_moment(CLI::App& command);
 
     // Whether the eye lives, and not only is: --time or --fps.
     bool alive() const { return time_s_ || fps_; }
     bool has_rate() const { return fps_.has_value(); }
     // The first of these options that was given, or nothing.
     std::string first_given() const;
-    // Throws InvalidArgument for options without --time or --fps.
+    // Throws InvalidArgument for options of an eye that moves without a moment.
     void check() const;
+
+    bool given(const std::string& option) const;
+    const std::string& blink_word() const { return blink_; }
 
     // Of a frame by its number.
     double time_s(int frame) const;
@@ -29,7 +35,10 @@ class MotionOptions {
     nlohmann::ordered_json report() const;
 
   private:
+    void add_movements();
+
     CLI::Option_group* group_ = nullptr;
+    std::string needs_;  // one of the options that make the eye live
     std::optional<double> time_s_;
     std::optional<double> fps_;
     std::string motion_ = "off";

@@ -12,6 +12,13 @@
 
 namespace aureole::app {
 
+// How light spreads, in the order in which it meets what spreads it. Either may be missing.
+struct Spreading {
+    std::optional<wave::Psf> streaks;  // of what lies before the eye or the film, in a pass of its
+                                       // own (Passes::kBoth, kStreaks)
+    std::optional<wave::Psf> rest;     // all the rest: everything (kOne), or bloom
+};
+
 // Made for one run; then asked for each picture in the order of these functions.
 class Observer {
   public:
@@ -24,16 +31,19 @@ class Observer {
     // Gets used to the picture; false if the PSF made before does not serve for it.
     virtual bool adapt(const io::Picture& /*picture*/) { return true; }
     // How light spreads in pictures whose display window is seen as `display` and data window as
-    // `data`; nothing if it does not. Asked again when the views change or adapt() says so.
-    virtual std::optional<wave::Psf> psf(const View& display, const View& data) = 0;
-    // The same where it depends on the position in the picture, in place of psf(); nothing if it
-    // does not.
+    // `data`. Asked again only when the views change or adapt() says so.
+    virtual Spreading spreading(const View& display, const View& data) = 0;
+    // The same where it depends on the position in the picture, in place of spreading(); nothing if
+    // it does not.
     virtual std::optional<wave::VaryingPsf> varying_psf(const View& /*display*/,
                                                         const View& /*data*/) {
         return std::nullopt;
     }
     // How much of the picture's light gets in, 0 to 1: the picture that spreads dims by it.
     virtual double light_share() const { return 1; }
+    // What the scattered light is to be multiplied by, of looks whose glare is brighter than light:
+    // asked after spreading().
+    virtual double gain() const { return 1; }
     // Gets ready for ghosts() in pictures whose data window is seen as `data`.
     virtual void plan(const View& /*data*/) {}
     // The light that does not spread but comes by other ways, to be added to the picture: 3

@@ -3,10 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
+#include "aureole/color/tone_curve.h"
+#include "aureole/eye/thesis_glare.h"
 #include "aureole/image/finite.h"
+#include "aureole/image/resample.h"
+#include "aureole/io/supersampling.h"
 #include "layers.h"
 #include "option_checks.h"
 #include "view_options.h"
@@ -14,11 +19,21 @@
 namespace aureole::app {
 namespace {
 
+// A look that adds more than this share of a picture's light has whitened it.
+constexpr double kMuchAdded = 0.5;
+
 using Reason = glare::MethodReport::Reason;
+
+constexpr int kMostSamples = 16;  // in either direction
 
 // How the last picture was done; the choice where there was one, or an error.
 void report_method(const glare::MethodReport& report, nlohmann::ordered_json& json) {
     json["method"] = glare::name_of(report.method);
+    if (report.raster.scale > 1) {
+        json["raster"] = {{"scale", report.raster.scale},
+                          {"near_radius", report.raster.near_radius},
+                          {"error_bound", report.raster.error}};
+    }
     if (report.method == glare::Method::kFft && report.reason == Reason::kAsked) return;
     if (report.method == glare::Method::kDirect) return;
     auto& choice = json["method_choice"];
@@ -61,6 +76,12 @@ void PictureSettings::add_options(CLI::App& group, CLI::App& command) {
                     "Also write a PNG or JPEG: the picture without glare, and with it; a numbered "
                     "name for a sequence")
         ->type_name("FILE");
+    whole_number(group.add_option("--supersampling", supersampling,
+                                  "The input has N x N samples for each pixel of the result: their "
+                                  "mean is taken first of all"),
+                 1, kMostSamples)
+        ->type_name("N")
+        ->capture_default_str();
     display.add_options(command);
 }
 
@@ -77,106 +98,100 @@ void PictureSettings::prepare(const std::vector<FrameFiles>& files) {
     display.prepare(outputs);
 }
 
-void SpreadSettings::add_options(CLI::App& group) {
-    one_of(group.add_option("--method", method,
-                            "fft: exact; direct: the plain double sum, exact and slow. To within "
-                            "--cluster-error: sprites: the kernel drawn for each light; hybrid: "
-                            "near by fft, far by sprites; auto: for each picture the fastest, "
-                            "which depends on the machine"),
-           {"fft", "direct", "sprites", "hybrid", "auto"})
-        ->capture_default_str();
-    error_option_ = number(group.add_option(
-                               "--cluster-error", cluster_error,
-                               "Of sprites, hybrid and auto: largest sum of |difference| from fft, "
-                               "over the sum of the light"),
-                           1e-6, 0.5)
-                        ->type_name("E")
-                        ->capture_default_str();
-    number(group.add_option("--threshold", threshold,
-                            "Pixel values below make no glare (continuous ramp); 0 is physical"),
-           0, 1e30)
-        ->type_name("V")
-        ->capture_default_str();
-    number(group.add_option("--gain", gain, "Scales the scattered light; 1 conserves energy"), 0,
-           1e6)
-        ->type_name("G")
-        ->capture_default_str();
-    one_of(group.add_option("--surround", surround,
-                            "What lies beyond the border. dark: nothing, borders lose light; same: "
-                            "for each pixel surroundings as bright as itself"),
-           {"dark", "same"})
-        ->capture_default_str();
-}
-
-void SpreadSettings::check() const {
-    if (error_option_->count() > 0 && (method == "fft" || method == "direct")) {
-        throw InvalidArgument("--cluster-error", error_option_->results().front(),
-                              "needs --method sprites, hybrid or auto: " + method + " is exact");
-    }
-}
-
-glare::GlareOptions SpreadSettings::options(bool matte) const {
-    glare::GlareOptions options;
-    options.method = glare::method_from_name(method);
-    options.cluster_error = cluster_error;
-    options.threshold = threshold;
-    options.gain = gain;
-    options.matte = matte;
-    options.surround = glare::surround_from_name(surround);
-    return options;
-}
-
-std::string SpreadSettings::first_selective() const {
-    if (method != "fft") return "--method " + method;
-    if (threshold != 0) return "--threshold";
-    if (gain != 1) return "--gain";
-    return surround == "same" ? "--surround same" : "";
-}
-
 void PictureJob::prepare(const io::Picture& picture) {
     const View display = observer_.view_of(picture);
     const View view = data_view(display, picture);
     const int channels = picture.color_channels();
     const bool adapted = observer_.adapt(picture);
     if (prepared_ && adapted && prepared_->view == view && prepared_->display == display &&
-        prepared_->channels == channels) {
+        prepared_->channels == channels &&
+        (prepared_->exposure_ev == exposure_ev_ || spread_.source_tone_map == "none")) {
         return;
     }
     prepared_.reset();
-    std::optional<wave::Psf> psf;
+    Spreading spreading;
     std::optional<wave::VaryingPsf> varying;
     session_.timed("psf", [&] {
         varying = observer_.varying_psf(display, view);
-        if (!varying) psf = observer_.psf(display, view);
+        if (!varying) spreading = observer_.spreading(display, view);
+        ++psfs_made_;
     });
+    const bool matte = !settings_.matte_file.empty();
+    const bool one_pass = spread_.passes() == Passes::kOne;
     session_.timed("plan", [&] {
-        prepared_.emplace(Prepared{display, view, channels, std::nullopt, std::nullopt});
-        if (varying) prepared_->varying.emplace(channels, *varying);
-        if (psf) {
-            prepared_->glare.emplace(view, channels, *psf,
-                                     spread_.options(!settings_.matte_file.empty()));
+        Prepared& now =
+            prepared_.emplace(Prepared{display, view, channels, exposure_ev_, {}, {}, {}});
+        if (varying) now.varying.emplace(channels, *varying);
+        glare::GlareOptions options = spread_.options(matte, exposure_ev_);
+        options.gain *= static_cast<float>(observer_.gain());
+        if (spreading.streaks) now.streaks.emplace(view, channels, *spreading.streaks, options);
+        if (spreading.rest) {
+            now.rest.emplace(view, channels, *spreading.rest,
+                             one_pass ? options : spread_.bloom_options(matte));
         }
         observer_.plan(view);
     });
+    const std::optional<glare::Glare>& by_fft =
+        prepared_->rest ? prepared_->rest : prepared_->streaks;
+    if (by_fft && spread_.resolution != "full" && by_fft->last().raster.scale == 1) {
+        session_.note(
+            "--resolution " + spread_.resolution +
+            ": all at full resolution: the kernel is too small or too rough for a raster");
+    }
     solid_angles_ = relative_solid_angles(view);
     result_ = Image(view.width, view.height, channels);
+    if (spreading.streaks && spreading.rest) {
+        with_streaks_ = Image(view.width, view.height, channels);
+    }
 }
 
-const float* PictureJob::matte_for(const io::Picture& picture) {
-    if (settings_.matte_file.empty()) return nullptr;
+void PictureJob::read_matte(const io::Picture& picture) {
+    if (settings_.matte_file.empty()) return;
     if (matte_.empty()) {
         const io::Picture file = io::read_picture(settings_.matte_file);
         matte_ = copy(file.image().view().channel_range(0, 1));
         replace_nonfinite(matte_);
     }
-    if (matte_.width() != picture.image().width() || matte_.height() != picture.image().height()) {
-        throw FileError(settings_.matte_file,
-                        fmt::format("is {}x{} pixels; a matte must have the size of the picture, "
-                                    "{}x{}",
-                                    matte_.width(), matte_.height(), picture.image().width(),
-                                    picture.image().height()));
+    const Image& image = picture.image();
+    if (matte_.width() != image.width() || matte_.height() != image.height()) {
+        throw FileError(
+            settings_.matte_file,
+            fmt::format("is {}x{} pixels; a matte must have the size of the picture, "
+                        "{}x{}",
+                        matte_.width(), matte_.height(), image.width(), image.height()));
     }
-    return matte_.plane(0);
+}
+
+void PictureJob::average_samples(io::Picture& picture, const std::string& file) {
+    if (settings_.supersampling == 1) return;
+    try {
+        io::average_samples(picture, settings_.supersampling);
+    } catch (const InvalidArgument& error) {
+        throw FileError(file, error.what());
+    }
+    if (!matte_.empty()) small_matte_ = area_average(matte_, settings_.supersampling);
+}
+
+// One pass or two into result_. What leaves the picture in either is off it: each pass conserves,
+// so both do.
+glare::Energy PictureJob::apply(const ConstImageView& in, const float* matte) {
+    const auto pass = [&](auto& glare, const ConstImageView& from, const ImageView& to) {
+        session_.timed("apply", [&] { glare.apply(from, to, matte); });
+        return glare.energy(from, to, matte);
+    };
+    Prepared& now = *prepared_;
+    if (now.varying) {
+        session_.timed("apply", [&] { now.varying->apply(in, result_); });
+        return now.varying->energy(in, result_);
+    }
+    if (!now.streaks) return pass(*now.rest, in, result_);
+    if (!now.rest) return pass(*now.streaks, in, result_);
+    glare::Energy total = pass(*now.streaks, in, with_streaks_);
+    const glare::Energy bloom = pass(*now.rest, with_streaks_, result_);
+    total.out = bloom.out;
+    total.off_picture += bloom.off_picture;
+    total.from_surround += bloom.from_surround;
+    return total;
 }
 
 // Into result_; and what that changed into layer_.
@@ -184,21 +199,13 @@ void PictureJob::spread(const ConstImageView& in, const float* matte) {
     const View& view = prepared_->view;
     const double share = observer_.light_share();
     if (prepared_->spreads()) {
-        session_.timed("apply", [&] {
-            if (prepared_->varying) {
-                prepared_->varying->apply(in, result_);
-            } else {
-                prepared_->glare->apply(in, result_, matte);
-            }
-        });
-        const glare::Energy energy = prepared_->varying
-                                         ? prepared_->varying->energy(in, result_)
-                                         : prepared_->glare->energy(in, result_, matte);
+        const glare::Energy energy = apply(in, matte);
         energy_.in += energy.in;
         energy_.out += share * energy.out;
         energy_.off_picture += share * energy.off_picture;
         energy_.blocked += (1 - share) * (energy.in + energy.from_surround);
         energy_.from_surround += energy.from_surround;
+        energy_.added += energy.added;
     } else {
         session_.timed("apply", [&] { result_ = copy(in); });
         const double energy = energy_of(in, view, solid_angles_);
@@ -243,7 +250,11 @@ void PictureJob::process(const FrameFiles& files) {
                                   nonfinite));
     }
     nonfinite_pixels_ += nonfinite;
-    const float* matte = matte_for(picture);
+    read_matte(picture);
+    average_samples(picture, files.input);
+    const float* const matte = matte_.empty()                 ? nullptr
+                               : settings_.supersampling == 1 ? matte_.plane(0)
+                                                              : small_matte_.plane(0);
     exposure_ev_ = settings_.display.exposure_ev(picture);
     prepare(picture);
     session_.check_interrupt();
@@ -293,35 +304,42 @@ void PictureJob::write(const FrameFiles& files, const io::Picture& picture) {
 
 std::string PictureJob::report() {
     auto& json = session_.json();
+    if (energy_.added > kMuchAdded * energy_.in) {
+        session_.note(
+            fmt::format("glare adds {:.2g} times the light of the picture (--gain, now {:g}, or "
+                        "--exposure scale it)",
+                        energy_.added / energy_.in, spread_.gain));
+    }
     const Prepared& last = *prepared_;
     json["outputs"] = written_;
     json["energy"] = {
         {"in", energy_.in}, {"out", energy_.out}, {"off_picture", energy_.off_picture}};
     if (energy_.from_surround != 0) json["energy"]["from_surround"] = energy_.from_surround;
+    if (energy_.added != 0) json["energy"]["added"] = energy_.added;
     if (energy_.blocked != 0) json["energy"]["blocked"] = energy_.blocked;
     if (has_ghosts_) json["energy"]["ghosts"] = energy_.ghosts;
-    if (last.glare) report_method(last.glare->last(), json);
+    if (last.chosen() != nullptr) report_method(last.chosen()->last(), json);
     if (last.varying) json["method"] = "nodes";
     json["nonfinite_pixels"] = nonfinite_pixels_;
+    json["psfs_made"] = psfs_made_;
     auto& parameters = json["parameters"];
     parameters = {{"width", last.view.width},
                   {"height", last.view.height},
                   {"fov_deg", last.display.horizontal_field_deg()},
                   {"perspective", last.view.projection == Projection::kPerspective},
                   {"pitch_deg", last.view.pitch_deg},
+                  {"supersampling", settings_.supersampling},
                   {"output_layers", settings_.layers},
                   {"depth", settings_.output.depth()},
                   {"tone_map", settings_.display.tone_map()},
                   {"antialias", settings_.display.antialias()},
                   {"exposure_ev", exposure_ev_},
                   {"threads", thread_count()}};
-    if (last.glare) {
-        parameters.update({{"padded_width", last.glare->padded_width()},
-                           {"padded_height", last.glare->padded_height()},
-                           {"cluster_error", spread_.cluster_error},
-                           {"threshold", spread_.threshold},
-                           {"gain", spread_.gain},
-                           {"surround", spread_.surround}});
+    if (last.chosen() != nullptr) {
+        const glare::Glare& glare = last.rest ? *last.rest : *last.streaks;
+        parameters.update(
+            {{"padded_width", glare.padded_width()}, {"padded_height", glare.padded_height()}});
+        parameters.update(spread_.report());
     }
     if (last.varying) {
         parameters.update({{"padded_width", last.varying->padded_width()},
@@ -334,7 +352,10 @@ std::string PictureJob::report() {
     const auto percent = [&](double energy) {
         return energy_.in > 0 ? 100 * energy / energy_.in : 0.0;
     };
-    if (last.spreads()) {
+    if (energy_.added != 0) {
+        summary += fmt::format("glare added {:.3g} % to the light of the picture;",
+                               percent(energy_.added));
+    } else if (last.spreads()) {
         summary += fmt::format("glare moved {:.2f} % of the light out of the picture;",
                                percent(energy_.off_picture));
     }

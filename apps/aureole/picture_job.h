@@ -15,12 +15,14 @@
 #include "observer.h"
 #include "output_options.h"
 #include "session.h"
+#include "spread_options.h"
 
 namespace aureole::app {
 
 // The options of both commands; those of `output` are added by the commands themselves.
 struct PictureSettings {
-    // --output-layers, --matte, --side-by-side to `group`, those of displays to `command`.
+    // --output-layers, --matte, --side-by-side, --supersampling to `group`, those of displays to
+    // `command`.
     void add_options(CLI::App& group, CLI::App& command);
     // Checks what can be checked before the first picture is read.
     void prepare(const std::vector<FrameFiles>& files);
@@ -31,26 +33,7 @@ struct PictureSettings {
     std::string layers = "composite";
     std::string matte_file;
     std::string side_by_side_file;
-};
-
-// How a PSF is applied.
-struct SpreadSettings {
-    void add_options(CLI::App& group);
-    // After parsing. Throws InvalidArgument for options that have no effect on this method.
-    void check() const;
-    glare::GlareOptions options(bool matte) const;
-    // The first option in force that a kernel that varies over the picture does not know, or
-    // nothing.
-    std::string first_selective() const;
-
-    std::string method = "fft";
-    double cluster_error = 0.01;
-    float threshold = 0;
-    float gain = 1;
-    std::string surround = "dark";
-
-  private:
-    CLI::Option* error_option_ = nullptr;
+    int supersampling = 1;  // samples per pixel of the result, in either direction
 };
 
 // Pictures one after another; PSF and transforms are kept as long as the view and the eye stay.
@@ -71,10 +54,14 @@ class PictureJob {
         View display;  // of the display window
         View view;     // of the data window: all of it makes glare
         int channels;
-        std::optional<glare::Glare> glare;
-        std::optional<glare::VaryingGlare> varying;
+        double exposure_ev;
+        std::optional<glare::Glare> streaks;  // before the rest, in a pass of their own
+        std::optional<glare::Glare> rest;
+        std::optional<glare::VaryingGlare> varying;  // in place of both
 
-        bool spreads() const { return glare || varying; }
+        bool spreads() const { return streaks || rest || varying; }
+        // The pass that the options for methods and thresholds are about.
+        const glare::Glare* chosen() const { return streaks ? &*streaks : rest ? &*rest : nullptr; }
     };
     struct Energy : glare::Energy {
         double ghosts = 0;
@@ -83,7 +70,11 @@ class PictureJob {
 
     void process(const FrameFiles& files);
     void prepare(const io::Picture& picture);
-    const float* matte_for(const io::Picture& picture);
+    // For a picture as it was read.
+    void read_matte(const io::Picture& picture);
+    // --supersampling, of the picture and of the matte. `file` is for messages.
+    void average_samples(io::Picture& picture, const std::string& file);
+    glare::Energy apply(const ConstImageView& in, const float* matte);
     void spread(const ConstImageView& in, const float* matte);
     void add_ghosts(const Image& ghosts);
     void write(const FrameFiles& files, const io::Picture& picture);
@@ -95,12 +86,15 @@ class PictureJob {
     std::optional<Prepared> prepared_;
     Image solid_angles_;  // of pixels, relative to that on the axis
     Image result_;
-    Image layer_;  // what was added and taken away; empty unless it is written
-    Image matte_;
+    Image with_streaks_;  // between the two passes
+    Image layer_;         // what was added and taken away; empty unless it is written
+    Image matte_;         // as it was read
+    Image small_matte_;   // of the size of the result, with --supersampling
     Energy energy_;
     bool has_ghosts_ = false;
     double exposure_ev_ = 0;  // of the last picture, for the report
     std::size_t nonfinite_pixels_ = 0;
+    int psfs_made_ = 0;
     std::vector<std::string> written_;
 };
 

@@ -14,6 +14,8 @@
 #include "commands.h"
 #include "eye_options.h"
 #include "kernel_file.h"
+#include "living_eye.h"
+#include "motion_options.h"
 #include "option_checks.h"
 #include "output_options.h"
 #include "session.h"
@@ -31,6 +33,8 @@ struct PsfCommand {
     void run();
     void check();
     wave::Psf compute(const eye::Eye& eye, const wave::KernelGrid& grid);
+    // At rest, or at --time.
+    eye::Eye eye_at_its_moment(const View& view, nlohmann::ordered_json& parameters);
     // Each makes the PSF of one observer, and says in "parameters" whose it is.
     wave::Psf of_eye(const View& view);
     wave::Psf of_camera(const Camera& seen_by, const View& view);
@@ -38,6 +42,7 @@ struct PsfCommand {
     Session session;
     ViewOptions view_options;
     EyeOptions eye_options;
+    MotionOptions motion_options;
     CameraOptions camera_options;
     std::string observer = "eye";
     OutputOptions output;
@@ -79,6 +84,7 @@ void PsfCommand::add_options(CLI::App& command) {
     component_option->capture_default_str();
     view_options.add_options(command, "60, or the lens's for a camera");
     eye_options.add_options(command);
+    motion_options.add_options_of_a_moment(command);
     camera_options.add_options(command, kFallbackLens);
     session.add_options(command);
 }
@@ -107,27 +113,54 @@ void PsfCommand::check() {
         throw InvalidArgument("--size", fmt::format("{}", size),
                               "must be odd: the source is in the middle of a pixel");
     }
+    const auto refuse = [](const std::string& option, const std::string& why) {
+        if (!option.empty()) throw InvalidArgument(option + ": " + why);
+    };
     if (observer == "camera") {
-        const std::string option = component_option->count() > 0 ? component_option->get_name()
-                                                                 : eye_options.first_given();
-        if (!option.empty()) {
-            throw InvalidArgument(option +
-                                  ": is an option of the eye: leave it out with --observer camera");
+        for (const std::string& option :
+             {component_option->count() > 0 ? component_option->get_name() : "",
+              eye_options.first_given(), motion_options.first_given()}) {
+            refuse(option, "is an option of the eye: leave it out with --observer camera");
         }
-    } else if (const std::string option = camera_options.first_given(); !option.empty()) {
-        throw InvalidArgument(option + ": is an option of the camera: needs --observer camera");
+        return;
+    }
+    refuse(eye_options.by_color() ? "--source-spectrum rgb" : "",
+           "makes a kernel for each pair of colours, which no kernel file holds; `aureole glare` "
+           "applies it");
+    refuse(camera_options.first_given(), "is an option of the camera: needs --observer camera");
+    motion_options.check();
+    if (!motion_options.alive() && !eye_options.adaptation_file().empty()) {
+        refuse("--adaptation " + eye_options.adaptation_file(),
+               "is a table over time: needs --time");
     }
 }
 
+eye::Eye PsfCommand::eye_at_its_moment(const View& view, nlohmann::ordered_json& parameters) {
+    if (!motion_options.alive()) {
+        const eye::Eye eye = eye_options.eye(kDefaultAdaptation, view);
+        parameters = eye_options.report(eye, kDefaultAdaptation);
+        return eye;
+    }
+    LivingEye living(eye_options, motion_options);
+    constexpr int kFirstFrame = 0;
+    const double time_s = motion_options.time_s(kFirstFrame);
+    const eye::Moment moment = living.at(time_s, kDefaultAdaptation, view);
+    if (moment.closed) {
+        throw InvalidArgument("--time", fmt::format("{}", time_s),
+                              "the lids are closed then: there is no light to spread");
+    }
+    parameters = living.report();
+    return moment.eye;
+}
+
 wave::Psf PsfCommand::of_eye(const View& view) {
-    const eye::Eye eye = eye_options.eye(kDefaultAdaptation, view);
+    auto& parameters = session.json()["parameters"];
+    const eye::Eye eye = eye_at_its_moment(view, parameters);
     if (eye_options.needs_adaptation()) {
         session.note(
             fmt::format("no adaptation luminance: assuming {} cd/m2 (--adaptation, --pupil)",
                         kDefaultAdaptation));
     }
-    auto& parameters = session.json()["parameters"];
-    parameters = eye_options.report(eye, kDefaultAdaptation);
     parameters["component"] = component;
     return session.timed("psf", [&] { return compute(eye, wave::KernelGrid::square(view, size)); });
 }

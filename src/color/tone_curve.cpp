@@ -47,6 +47,9 @@ void apply(ToneCurve curve, int count, Block& block) {
                 kernels::hue_preserving(block.r[i], block.g[i], block.b[i]);
             }
             break;
+        case ToneCurve::kUnity:
+            for (int i = 0; i < count; ++i) kernels::unity(block.r[i], block.g[i], block.b[i]);
+            break;
     }
 }
 
@@ -57,7 +60,9 @@ ToneCurve tone_curve_from_name(std::string_view name) {
     if (name == "narkowicz") return ToneCurve::kNarkowicz;
     if (name == "hill") return ToneCurve::kHill;
     if (name == "xyz") return ToneCurve::kXyz;
-    throw InvalidArgument("tone curve", std::string(name), "must be none, narkowicz, hill or xyz");
+    if (name == "unity") return ToneCurve::kUnity;
+    throw InvalidArgument("tone curve", std::string(name),
+                          "must be none, narkowicz, hill, xyz or unity");
 }
 
 Rgbf tone_map(ToneCurve curve, const Rgbf& rgb) {
@@ -74,6 +79,9 @@ Rgbf tone_map(ToneCurve curve, const Rgbf& rgb) {
             break;
         case ToneCurve::kXyz:
             kernels::hue_preserving(r, g, b);
+            break;
+        case ToneCurve::kUnity:
+            kernels::unity(r, g, b);
             break;
     }
     return {r, g, b};

@@ -45,6 +45,38 @@ inline void hill(float& r, float& g, float& b) {
     b = clip(-0.00327F * x - 0.07276F * y + 1.07603F * z);
 }
 
+// From the RRT's desaturation to the ODT's in ACEScg (primaries AP1; its white comes from D65 by
+// Bradford's transform). A dim surround raises luminance to the power .9811, chromaticity kept.
+inline void unity(float& r, float& g, float& b) {
+    const auto luminance = [](float x, float y, float z) {
+        return 0.272229F * x + 0.674082F * y + 0.053689F * z;
+    };
+    const auto saturate = [&](float& x, float& y, float& z, float saturation) {
+        const float grey = luminance(x, y, z);
+        x = grey + saturation * (x - grey);
+        y = grey + saturation * (y - grey);
+        z = grey + saturation * (z - grey);
+    };
+    const auto curve = [](float v) {
+        return v * (278.5085F * v + 10.7772F) / (v * (293.6045F * v + 88.7122F) + 80.6889F);
+    };
+    float x = std::max(0.613097F * r + 0.339523F * g + 0.047380F * b, 0.0F);
+    float y = std::max(0.070194F * r + 0.916354F * g + 0.013452F * b, 0.0F);
+    float z = std::max(0.020616F * r + 0.109570F * g + 0.869814F * b, 0.0F);
+    saturate(x, y, z, 0.96F);
+    x = curve(x);
+    y = curve(y);
+    z = curve(z);
+    const float dim = std::pow(std::max(luminance(x, y, z), 1e-6F), 0.9811F - 1.0F);
+    x *= dim;
+    y *= dim;
+    z *= dim;
+    saturate(x, y, z, 0.93F);
+    r = clip(1.705051F * x - 0.621792F * y - 0.083259F * z);
+    g = clip(-0.130256F * x + 1.140805F * y - 0.010549F * z);
+    b = clip(-0.024003F * x - 0.128969F * y + 1.152972F * z);
+}
+
 // The formula is in aureole/color/tone_curve.h.
 inline void hue_preserving(float& r, float& g, float& b) {
     constexpr auto kR = static_cast<float>(kLuminanceWeights[0]);

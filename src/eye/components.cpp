@@ -12,32 +12,24 @@
 #include "aureole/base/units.h"
 #include "aureole/wave/diffraction.h"
 #include "aureole/wave/spectral_psf.h"
+#include "eye/band_fade.h"
+#include "eye/diffracted_share.h"
+#include "eye/kernel_checks.h"
+#include "eye/pupil_outline.h"
+#include "eye/real_pair.h"
 #include "eye/stopwatch.h"
 
 namespace aureole::eye {
 namespace {
 
-// The patterns fade out over the last part of the FFT's half width, so that no wavelength's band
-// ends in a visible (and, as bands scale with wavelength, coloured) square.
+// As kStreaksFade, of the others.
 constexpr double kCoronaFade = 0.15;
-constexpr double kStreaksFade = 0.35;
 constexpr double kHaloFade = 0.15;
 // The halo without what the envelope of the fibres does near the axis: from nothing at the first
 // angle to everything at the second, for the reference wavelength.
 constexpr double kHaloFromDeg = 1.4;
 constexpr double kHaloFullDeg = 2.0;
 constexpr double kHaloReferenceNm = 568;
-
-double smoothstep(double from, double to, double x) {
-    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
-// 1 inside, falling to 0 at the FFT's half width over the given share of it.
-double band_fade(std::size_t ring, int samples, double share) {
-    const double half = samples / 2.0;
-    return smoothstep(0, share, 1 - static_cast<double>(ring) / half);
-}
 
 wave::KernelGrid reached_pixels(const wave::KernelGrid& grid, const wave::ApertureGrid& aperture,
                                 double longest_nm) {
@@ -54,7 +46,8 @@ wave::KernelGrid reached_pixels(const wave::KernelGrid& grid, const wave::Apertu
 
 void multiply(Image& image, double factor) {
     const auto f = static_cast<float>(factor);
-    std::for_each_n(image.plane(0), 3 * image.pixels(), [&](float& value) { value *= f; });
+    const std::size_t values = static_cast<std::size_t>(image.channels()) * image.pixels();
+    std::for_each_n(image.plane(0), values, [&](float& value) { value *= f; });
 }
 
 // A field made of two real planes, without copying them.
@@ -64,39 +57,6 @@ wave::Field field_of(const wave::ApertureGrid& grid, Buffer re, Buffer im) {
     field.re = std::move(re);
     field.im = std::move(im);
     return field;
-}
-
-// The transform F of a + i b, a and b real, holds both: F{a} = (F(k) + F*(-k)) / 2 and
-// F{b} = (F(k) - F*(-k)) / 2i. Replaces re by |F{a}| and im by |F{b}|, both symmetric under a half
-// turn. The sum of their squares is |F|^2 averaged over k and -k.
-void separate_amplitudes(wave::Field& field) {
-    const auto n = static_cast<std::size_t>(field.grid.samples);
-    parallel_for(n / 2 + 1, [&](std::size_t j, int) {
-        const std::size_t opposite = (n - j) % n;
-        float* re0 = field.re.data() + j * n;
-        float* im0 = field.im.data() + j * n;
-        float* re1 = field.re.data() + opposite * n;
-        float* im1 = field.im.data() + opposite * n;
-        const auto separate = [&](std::size_t i, std::size_t k) {
-            const float a_re = re0[i] + re1[k];
-            const float a_im = im0[i] - im1[k];
-            const float b_re = im0[i] + im1[k];
-            const float b_im = re1[k] - re0[i];
-            const float a = 0.5F * std::sqrt(a_re * a_re + a_im * a_im);
-            const float b = 0.5F * std::sqrt(b_re * b_re + b_im * b_im);
-            re0[i] = a;
-            re1[k] = a;
-            im0[i] = b;
-            im1[k] = b;
-        };
-        if (j == opposite) {
-            separate(0, 0);
-            for (std::size_t i = 1; i <= n / 2; ++i) separate(i, n - i);
-        } else {
-            separate(0, 0);
-            for (std::size_t i = 1; i < n; ++i) separate(i, n - i);
-        }
-    });
 }
 
 }  // namespace
@@ -109,8 +69,8 @@ Components::Components(const Eye& eye, const wave::KernelGrid& grid, const EyePs
       timings_(timings),
       field_(field),
       stage_start_(seconds()),
-      levels_(spectral_levels(options.spectral, grid)),
-      patch_(reached_pixels(grid, options.aperture, longest_wavelength_nm(levels_))),
+      lights_(levels_of_lights(options.spectral, grid)),
+      patch_(reached_pixels(grid, options.aperture, longest_wavelength_nm(lights_))),
       fft_(options.aperture.samples, options.aperture.samples) {
     finish_stage(&EyePsfTimings::transform, 0);
 }
@@ -154,9 +114,17 @@ double Components::sum_lit_rows(const Buffer& plane) const {
 
 Image Components::onto_pixels(const wave::PatternIntegral& pattern, wave::PixelRule rule,
                               float initial) {
-    Image out(patch_.width, patch_.height, 3);
-    if (initial != 0) std::fill_n(out.plane(0), 3 * out.pixels(), initial);
-    add_spectral(pattern, options_.aperture.extent_mm, rule, levels_, patch_, out);
+    Image out(patch_.width, patch_.height, channels());
+    for (std::size_t light = 0; light < lights_.size(); ++light) {
+        const int first = 3 * static_cast<int>(light);
+        for (int c = 0; c < 3; ++c) {
+            if (is_own_colour(first + c, channels())) {
+                std::fill_n(out.plane(first + c), out.pixels(), initial);
+            }
+        }
+        add_spectral(pattern, options_.aperture.extent_mm, rule, lights_[light], patch_,
+                     out.view().channel_range(first, 3));
+    }
     return out;
 }
 
@@ -177,10 +145,7 @@ Image Components::bloom() {
 std::optional<Image> Components::halo() {
     const int n = options_.aperture.samples;
     const auto count = static_cast<std::size_t>(n);
-    if (eye_.pupil_diameter_mm / 2 <= eye_.anatomy.gratings.inner_radius_mm ||
-        eye_.anatomy.gratings.phase_rad == 0) {
-        return std::nullopt;
-    }
+    if (!shows_fibres(eye_)) return std::nullopt;
     draw_pupil_once();
     wave::Field field = wave::field_from(*pupil_);
     multiply_gratings(eye_, field);
@@ -310,12 +275,8 @@ Components::CoronaAndStreaks Components::corona_and_streaks(bool with_corona, bo
         field.re = std::move(streak_amplitude);
         // The value at frequency 0: any scale that keeps a float in its range would do.
         const double peak = std::pow(static_cast<double>(field.re[0]), 2);
-        wave::RingWeights weights;
-        weights.scale.resize(count / 2);
-        for (std::size_t ring = 0; ring < weights.scale.size(); ++ring) {
-            weights.scale[ring] = static_cast<float>(band_fade(ring, n, kStreaksFade) / peak);
-        }
-        const auto pattern = wave::PatternIntegral::from_transform(field, weights);
+        const auto pattern =
+            wave::PatternIntegral::from_transform(field, streak_weights(n, 1 / peak));
         finish_stage(&EyePsfTimings::pattern, 0.85);
         result.streaks = onto_pixels(pattern, wave::PixelRule::kEnergy, 0);
         multiply(*result.streaks, 1 / pattern.total());

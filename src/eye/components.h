@@ -23,8 +23,9 @@ class Components {
                Progress* progress, EyePsfTimings* timings, const FieldPosition& field = {});
 
     // The central part of the kernel's grid that any pattern reaches. All pictures below have
-    // three channels and this size.
+    // this size and the channels of the kernel: 3, or a matrix of 9.
     const wave::KernelGrid& patch() const { return patch_; }
+    int channels() const { return 3 * static_cast<int>(lights_.size()); }
 
     // |F{P}|^2 per pixel. Unit energy over the band.
     Image bloom();
@@ -33,7 +34,8 @@ class Components {
     std::optional<Image> halo();
 
     struct CoronaAndStreaks {
-        std::optional<Image> corona;   // T, not yet normalised; nothing without particles
+        std::optional<Image> corona;   // T, not yet normalised (of a matrix: its sum over the
+                                       // lights is); nothing without particles
         std::optional<Image> streaks;  // E; nothing without lashes before the pupil
         double blocked_share = 0;      // of the pupil's area, by lashes; 0 behind a closed lid
     };
@@ -45,6 +47,7 @@ class Components {
     void draw_pupil_once();
     std::size_t lit_rows() const { return end_lit_row_ - first_lit_row_; }
     double sum_lit_rows(const Buffer& plane) const;
+    // `initial`: in every colour of white.
     Image onto_pixels(const wave::PatternIntegral& pattern, wave::PixelRule rule, float initial);
 
     const Eye& eye_;
@@ -54,7 +57,7 @@ class Components {
     FieldPosition field_;
     double stage_start_;
     double fraction_done_ = 0;
-    std::vector<SpectralLevel> levels_;
+    std::vector<std::vector<SpectralLevel>> lights_;
     wave::KernelGrid patch_;
     fourier::Fft2d fft_;
     std::optional<wave::Mask> pupil_;

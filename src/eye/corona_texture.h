@@ -12,4 +12,10 @@ namespace aureole::eye {
 // `corona` has 3 channels, `scatter` 1, both the same odd size centred on the source.
 Image corona_texture(const Image& corona, const Image& scatter, double contrast);
 
+// Which part of the texture of white the light of each primary has, from the 9 channels of its
+// corona: a matrix whose sum over the primaries is `texture` and whose ring means are 1 where light
+// keeps its colour, 0 else. `white` is the sum of `corona` over the primaries.
+Image texture_of_primaries(const Image& texture, const Image& corona, const Image& white,
+                           const Image& scatter);
+
 }  // namespace aureole::eye

@@ -35,6 +35,9 @@ void check(const Eye& eye) {
     require("halo", eye.halo, 0, 20, "");
     require("streaks", eye.streaks, 0, 20, "");
     const Anatomy& anatomy = eye.anatomy;
+    require("pupil axis ratio", anatomy.pupil.axis_ratio, 1, 10, "");
+    require("iris", anatomy.pupil.iris_mm, 1, 9, " mm");
+    require("pupil rotation", anatomy.pupil.rotation_deg, -180, 180, " deg");
     check_particles("lens_small", anatomy.lens_small);
     check_particles("lens_large", anatomy.lens_large);
     check_particles("vitreous", anatomy.vitreous);
@@ -54,6 +57,8 @@ void check(const Eye& eye) {
     require("lash reach_sd", anatomy.lashes.reach_sd, 0, 1, "");
     require("lash curvature", anatomy.lashes.curvature_per_mm, 0, 0.1, " per mm");
     require("lash distance", anatomy.lashes.distance_mm, 0, 30, " mm");
+    require("curled lashes", anatomy.lashes.curled_per_mm, 0, 10, " per mm");
+    require("lash curl", anatomy.lashes.curl_deg, 1, 90, " deg");
     require("lens scale", eye.pose.lens_scale, 0.9, 1.1, "");
     require("vitreous yaw", eye.pose.vitreous_yaw_deg, -90, 90, " deg");
     require("vitreous pitch", eye.pose.vitreous_pitch_deg, -90, 90, " deg");

@@ -11,36 +11,21 @@
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
+#include "aureole/base/units.h"
 #include "aureole/eye/scatter.h"
 #include "eye/components.h"
 #include "eye/corona_texture.h"
+#include "eye/diffracted_share.h"
 #include "eye/kernel_checks.h"
+#include "eye/pupil_outline.h"
 #include "eye/scatter_pixels.h"
 #include "eye/stopwatch.h"
 
 namespace aureole::eye {
 namespace {
 
-constexpr double kMostDiffractedShare = 0.5;
-
-// The central pixels of the scatter term, in the order of the patch.
-Image scatter_patch(const ScatterPixels& scatter, const wave::KernelGrid& patch) {
-    Image out(patch.width, patch.height, 1);
-    const int half_width = patch.width / 2;
-    const int half_height = patch.height / 2;
-    parallel_for(static_cast<std::size_t>(half_height) + 1, [&](std::size_t row, int) {
-        const int dy = static_cast<int>(row);
-        float* below = out.row(half_height + dy, 0) + half_width;
-        scatter.row(dy, half_width + 1, below);
-        for (int dx = 1; dx <= half_width; ++dx) below[-dx] = below[dx];
-        std::copy_n(below - half_width, patch.width, out.row(half_height - dy, 0));
-    });
-    return out;
-}
-
 // energy[c] S over the whole kernel; the four quadrants are mirror images.
-void fill_scatter(const ScatterPixels& scatter, const std::array<double, 3>& energy,
-                  Image& kernel) {
+void fill_scatter(const ScatterPixels& scatter, const std::vector<double>& energy, Image& kernel) {
     const int half_width = kernel.width() / 2;
     const int half_height = kernel.height() / 2;
     std::vector<std::vector<float>> quadrant_rows(static_cast<std::size_t>(max_workers()));
@@ -49,7 +34,7 @@ void fill_scatter(const ScatterPixels& scatter, const std::array<double, 3>& ene
         quadrant.resize(static_cast<std::size_t>(half_width) + 1);
         const int dy = static_cast<int>(row);
         scatter.row(dy, half_width + 1, quadrant.data());
-        for (int c = 0; c < 3; ++c) {
+        for (int c = 0; c < kernel.channels(); ++c) {
             const auto scale = static_cast<float>(energy[static_cast<std::size_t>(c)]);
             float* below = kernel.row(half_height + dy, c) + half_width;
             for (int dx = 0; dx <= half_width; ++dx) {
@@ -63,6 +48,20 @@ void fill_scatter(const ScatterPixels& scatter, const std::array<double, 3>& ene
     });
 }
 
+// The three channels that white light sees.
+Image sum_of_lights(const Image& image) {
+    Image white(image.width(), image.height(), 3);
+    parallel_for(static_cast<std::size_t>(image.height()), [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
+        for (int channel = 0; channel < image.channels(); ++channel) {
+            const float* from = image.row(y, channel);
+            float* to = white.row(y, channel % 3);
+            for (int x = 0; x < image.width(); ++x) to[x] += from[x];
+        }
+    });
+    return white;
+}
+
 // Calls visit(kernel row segment, patch row, y, c) for every row of the patch.
 template <class Visit>
 void over_patch(Image& kernel, const wave::KernelGrid& patch, const Visit& visit) {
@@ -70,7 +69,7 @@ void over_patch(Image& kernel, const wave::KernelGrid& patch, const Visit& visit
     const int y0 = (kernel.height() - patch.height) / 2;
     parallel_for(static_cast<std::size_t>(patch.height), [&](std::size_t row, int) {
         const int y = static_cast<int>(row);
-        for (int c = 0; c < 3; ++c) visit(kernel.row(y0 + y, c) + x0, y, c);
+        for (int c = 0; c < kernel.channels(); ++c) visit(kernel.row(y0 + y, c) + x0, y, c);
     });
 }
 
@@ -81,12 +80,34 @@ void multiply_patch(Image& kernel, const wave::KernelGrid& patch, const Image& f
     });
 }
 
+// `weight`: of each of three colours.
 void add_patch(Image& kernel, const wave::KernelGrid& patch, const Image& term,
                const std::array<double, 3>& weight) {
     over_patch(kernel, patch, [&](float* k, int y, int c) {
         const float* t = term.row(y, c);
-        const auto w = static_cast<float>(weight[static_cast<std::size_t>(c)]);
+        const auto w = static_cast<float>(weight[static_cast<std::size_t>(c % 3)]);
         for (int x = 0; x < patch.width; ++x) k[x] += w * t[x];
+    });
+}
+
+// Gives S, which fills the kernel with the energy of white, the texture of the corona.
+void apply_texture(const Image& corona, const Image& scatter, double contrast,
+                   const std::array<double, 3>& energy, const wave::KernelGrid& patch,
+                   Image& kernel) {
+    if (kernel.channels() == 3) {
+        multiply_patch(kernel, patch, corona_texture(corona, scatter, contrast));
+        return;
+    }
+    // S itself has no colour; what the texture adds to it and takes from it has.
+    const Image white = sum_of_lights(corona);
+    const Image matrix =
+        texture_of_primaries(corona_texture(white, scatter, contrast), corona, white, scatter);
+    over_patch(kernel, patch, [&](float* k, int y, int channel) {
+        const auto e = static_cast<float>(energy[static_cast<std::size_t>(channel % 3)]);
+        const float own = is_own_colour(channel, kernel.channels()) ? 1.0F : 0.0F;
+        const float* s = scatter.row(y, 0);
+        const float* t = matrix.row(y, channel);
+        for (int x = 0; x < patch.width; ++x) k[x] += e * s[x] * (t[x] - own);
     });
 }
 
@@ -94,28 +115,43 @@ wave::Psf single_pattern(const wave::KernelGrid& grid, const wave::KernelGrid& p
                          const Image& pattern) {
     wave::Psf psf;
     psf.grid = grid;
-    psf.kernel = Image(grid.width, grid.height, 3);
+    psf.kernel = Image(grid.width, grid.height, pattern.channels());
     add_patch(psf.kernel, patch, pattern, {1, 1, 1});
     psf.off_kernel_energy = energy_outside(pattern);
     return psf;
 }
 
-}  // namespace
-
-double halo_weight(const Eye& eye) {
+// Energy of the halo behind a round pupil: w_h of the header.
+double round_halo_weight(double pupil_mm) {
     constexpr struct {
         double pupil_mm;
         double weight;
     } kNodes[] = {{3, 0}, {5, 0.0005}, {6, 0.0030}, {7, 0.0062}};
-    const double pupil_mm = eye.pupil_diameter_mm;
     if (pupil_mm <= kNodes[0].pupil_mm) return 0;
     for (std::size_t i = 1; i < std::size(kNodes); ++i) {
         if (pupil_mm > kNodes[i].pupil_mm) continue;
         const double t =
             (pupil_mm - kNodes[i - 1].pupil_mm) / (kNodes[i].pupil_mm - kNodes[i - 1].pupil_mm);
-        return eye.halo * (kNodes[i - 1].weight + t * (kNodes[i].weight - kNodes[i - 1].weight));
+        return kNodes[i - 1].weight + t * (kNodes[i].weight - kNodes[i - 1].weight);
     }
-    return eye.halo * kNodes[std::size(kNodes) - 1].weight;
+    return kNodes[std::size(kNodes) - 1].weight;
+}
+
+}  // namespace
+
+double halo_weight(const Eye& eye) {
+    const PupilOutline pupil(eye);
+    if (pupil.round()) return eye.halo * round_halo_weight(eye.pupil_diameter_mm);
+    // Sector by sector, as many as a narrow slit needs.
+    constexpr int kSectors = 4096;
+    double energy = 0;
+    double area = 0;
+    for (int i = 0; i < kSectors; ++i) {
+        const double radius_mm = pupil.radius_mm(2 * kPi * (i + 0.5) / kSectors);
+        energy += round_halo_weight(2 * radius_mm) * radius_mm * radius_mm;
+        area += radius_mm * radius_mm;
+    }
+    return eye.halo * energy / area;
 }
 
 wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOptions& options,
@@ -136,45 +172,74 @@ wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOpti
     const auto [corona, streaks, blocked_share] = components.corona_and_streaks(
         scatters && eye.corona_contrast > 0, eye.streaks > 0 && eye.eyelashes > 0);
     double streak_share = streaks ? blocked_share * eye.streaks : 0;
-    const double excess = (halo_share + streak_share) / kMostDiffractedShare;
-    if (excess > 1) {
-        halo_share /= excess;
-        streak_share /= excess;
-    }
+    const double limit = diffracted_limit(halo_share + streak_share);
+    halo_share *= limit;
+    streak_share *= limit;
 
     const double start = seconds();
-    std::array<double, 3> rest = {1, 1, 1};  // 1 - c
+    const int channels = components.channels();
+    std::vector<double> rest;  // 1 - c. Of light in other colours than its own: -c
+    for (int channel = 0; channel < channels; ++channel) {
+        rest.push_back(is_own_colour(channel, channels) ? 1 : 0);
+    }
+    std::array<double, 3> rest_of_white = {1, 1, 1};
     const auto take = [&](const std::optional<Image>& pattern, double share) {
         if (!pattern) return;
         const auto sums = plane_sums(*pattern);
-        for (std::size_t c = 0; c < 3; ++c) rest[c] -= share * sums[c];
+        for (std::size_t c = 0; c < rest.size(); ++c) {
+            rest[c] -= share * sums[c];
+            rest_of_white[c % 3] -= share * sums[c];
+        }
     };
     take(halo, halo_share);
     take(streaks, streak_share);
 
     wave::Psf psf;
     psf.grid = grid;
-    psf.kernel = Image(grid.width, grid.height, 3);
+    psf.kernel = Image(grid.width, grid.height, channels);
     if (scatters) {
         const ScatterPixels scatter(
             ScatterPsf(eye.scatter, eye.age_years, eye.pigmentation, eye.pupil_diameter_mm), grid);
         fill_scatter(scatter, rest, psf.kernel);
         if (corona) {
-            multiply_patch(
-                psf.kernel, patch,
-                corona_texture(*corona, scatter_patch(scatter, patch), eye.corona_contrast));
+            apply_texture(*corona, scatter.image(patch.width, patch.height), eye.corona_contrast,
+                          rest_of_white, patch, psf.kernel);
         }
-        for (std::size_t c = 0; c < 3; ++c) {
-            psf.off_kernel_energy[c] = rest[c] * scatter.off_kernel_energy();
-        }
+        psf.off_kernel_energy.fill(scatter.off_kernel_energy());
     } else {
-        add_patch(psf.kernel, patch, *airy, rest);
+        add_patch(psf.kernel, patch, *airy, rest_of_white);
         psf.off_kernel_energy = energy_outside(*airy);
-        for (std::size_t c = 0; c < 3; ++c) psf.off_kernel_energy[c] *= rest[c];
     }
+    for (std::size_t c = 0; c < 3; ++c) psf.off_kernel_energy[c] *= rest_of_white[c];
     if (halo) add_patch(psf.kernel, patch, *halo, {halo_share, halo_share, halo_share});
     if (streaks) add_patch(psf.kernel, patch, *streaks, {streak_share, streak_share, streak_share});
     if (timings != nullptr) timings->scatter += seconds() - start;
+    if (progress != nullptr) progress->report("eye psf", 1);
+    return psf;
+}
+
+wave::Psf streaks_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOptions& options,
+                      Progress* progress) {
+    check(eye);
+    check_kernel(grid);
+    check_aperture(options.aperture);
+    Components components(eye, grid, options, progress, nullptr);
+    const auto parts = components.corona_and_streaks(false, eye.streaks > 0 && eye.eyelashes > 0);
+    double share = parts.streaks ? parts.blocked_share * eye.streaks : 0;
+    share *= diffracted_limit(share);
+    wave::Psf psf;
+    psf.grid = grid;
+    const int channels = components.channels();
+    psf.kernel = Image(grid.width, grid.height, channels);
+    if (parts.streaks) {
+        add_patch(psf.kernel, components.patch(), *parts.streaks, {share, share, share});
+        psf.off_kernel_energy = energy_outside(*parts.streaks);
+        for (double& energy : psf.off_kernel_energy) energy *= share;
+    }
+    for (int channel = 0; channel < channels; ++channel) {
+        if (!is_own_colour(channel, channels)) continue;
+        psf.kernel.at(grid.width / 2, grid.height / 2, channel) += static_cast<float>(1 - share);
+    }
     if (progress != nullptr) progress->report("eye psf", 1);
     return psf;
 }

@@ -118,6 +118,99 @@ TEST(EyePsf, StreaksHoldTheShareOfThePupilThatLashesBlock) {
     }
 }
 
+TEST(StreaksPsf, LeavesWhatLashesLetThrough) {
+    Eye eye;
+    const EyePsfOptions options = small();
+    const wave::Psf pattern = eye_component(Component::kStreaks, eye, grid_129(), options);
+    for (const double scale : {1.0, 3.0}) {
+        eye.streaks = scale;
+        const wave::Psf psf = streaks_psf(eye, grid_129(), options);
+        expect_unit_energy(psf, 1e-5);
+        const double share = psf.off_kernel_energy[1] / pattern.off_kernel_energy[1];
+        for (int y = 0; y < 129; ++y) {
+            for (int x = 0; x < 129; ++x) {
+                const double streak = share * static_cast<double>(pattern.kernel.at(x, y, 1));
+                const double stays = x == 64 && y == 64 ? 1 - share : 0;
+                ASSERT_NEAR(static_cast<double>(psf.kernel.at(x, y, 1)), stays + streak, 1e-6);
+            }
+        }
+        // What eye_psf() takes from the scatter for them (StreaksHoldTheShareOfThePupil...).
+        Eye plain = eye;
+        plain.corona_contrast = 0;
+        plain.halo = 0;
+        const double with = eye_psf(plain, grid_129(), options).off_kernel_energy[1];
+        plain.streaks = 0;
+        const double without = eye_psf(plain, grid_129(), options).off_kernel_energy[1];
+        EXPECT_NEAR(1 - with / without, share * (1 - pattern.off_kernel_energy[1]), 1e-5);
+    }
+}
+
+TEST(StreaksPsf, WithoutLashesIsThePictureItself) {
+    Eye eye;
+    eye.eyelashes = 0;
+    const wave::Psf psf = streaks_psf(eye, grid_129(), small());
+    expect_unit_energy(psf, 0);
+    EXPECT_EQ(psf.kernel.at(64, 64, 0), 1);
+    eye.eyelashes = 7;
+    eye.streaks = 20;  // at most half, whatever is asked for
+    EXPECT_NEAR(static_cast<double>(streaks_psf(eye, grid_129(), small()).kernel.at(64, 64, 1)),
+                0.5, 0.1);
+}
+
+// Principal axis of what lies at (x, y), y upwards, in deg from the x axis, [0, 180).
+template <class Weight>
+double axis_deg(int width, int height, const Weight& weight) {
+    double sum = 0, mx = 0, my = 0, xx = 0, yy = 0, xy = 0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const double w = weight(x, y);
+            sum += w;
+            mx += w * x;
+            my -= w * y;
+            xx += w * x * x;
+            yy += w * y * y;
+            xy -= w * x * y;
+        }
+    }
+    mx /= sum;
+    my /= sum;
+    const double angle =
+        0.5 * std::atan2(2 * (xy / sum - mx * my), xx / sum - mx * mx - (yy / sum - my * my));
+    return std::fmod(deg_from_rad(angle) + 180, 180);
+}
+
+// Babinet: a lash diffracts like the slit of its shape, at right angles to itself.
+TEST(StreaksPsf, LieAcrossEachLash) {
+    const EyePsfOptions options = small();
+    int seen = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        Eye eye;
+        eye.seed = seed;
+        eye.eyelashes = 1;
+        const wave::Mask pupil = draw_pupil(eye, options.aperture);
+        const wave::Mask lash = draw_lashes(eye, options.aperture);
+        const int n = options.aperture.samples;
+        double blocked = 0;
+        const auto before_pupil = [&](int x, int y) {
+            // Rows of a mask run upwards, those of a picture downwards.
+            return static_cast<double>(lash.row(n - 1 - y)[x] * pupil.row(n - 1 - y)[x]);
+        };
+        for (int y = 0; y < n; ++y) {
+            for (int x = 0; x < n; ++x) blocked += before_pupil(x, y);
+        }
+        if (blocked < 2000) continue;  // a lash too short to have a direction
+        ++seen;
+        const double lash_deg = axis_deg(n, n, before_pupil);
+        const wave::Psf streak = eye_component(Component::kStreaks, eye, grid_129(), options);
+        const double streak_deg = axis_deg(129, 129, [&](int x, int y) {
+            return std::max(0.0, static_cast<double>(streak.kernel.at(x, y, 1)));
+        });
+        const double apart = std::abs(streak_deg - lash_deg);
+        EXPECT_NEAR(apart, 90, 3) << "seed " << seed << ", lash at " << lash_deg;
+    }
+    EXPECT_GE(seen, 4);
+}
+
 // Light of one wavelength behind many particles is fully developed speckle: its intensity is
 // exponentially distributed, with a deviation equal to its mean (Goodman, "Speckle Phenomena in
 // Optics", section 3.2). Pixels as fine as the samples of the transform average nothing away.

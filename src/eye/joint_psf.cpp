@@ -163,7 +163,7 @@ std::string propagation_resolution_note(const Eye& eye, const JointPsfOptions& o
         const double defocus = dioptres(options, wavelength_nm);
         if (defocus == 0) continue;
         spacing_mm = std::min(spacing_mm, wave::max_spacing_for_defocus_mm(
-                                              defocus, eye.pupil_diameter_mm / 2, wavelength_nm));
+                                              defocus, pupil_axes(eye).long_mm / 2, wavelength_nm));
     }
     if (spacing_mm >= options.aperture.spacing_mm()) return {};
     int samples =

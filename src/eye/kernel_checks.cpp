@@ -33,9 +33,9 @@ void check_aperture(const wave::ApertureGrid& grid) {
     }
 }
 
-std::array<double, 3> plane_sums(const Image& image) {
-    std::array<double, 3> sums = {};
-    for (int c = 0; c < 3; ++c) {
+std::vector<double> plane_sums(const Image& image) {
+    std::vector<double> sums(static_cast<std::size_t>(image.channels()));
+    for (int c = 0; c < image.channels(); ++c) {
         for (int y = 0; y < image.height(); ++y) {
             const float* row = image.row(y, c);
             sums[static_cast<std::size_t>(c)] += std::accumulate(row, row + image.width(), 0.0);
@@ -44,9 +44,10 @@ std::array<double, 3> plane_sums(const Image& image) {
     return sums;
 }
 
-std::array<double, 3> energy_outside(const Image& image) {
-    auto energy = plane_sums(image);
-    for (double& value : energy) value = 1 - value;
+std::array<double, 3> energy_outside(const Image& kernel) {
+    std::array<double, 3> energy = {1, 1, 1};
+    const auto sums = plane_sums(kernel);
+    for (std::size_t c = 0; c < sums.size(); ++c) energy[c % 3] -= sums[c];
     return energy;
 }
 

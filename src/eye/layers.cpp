@@ -1,4 +1,4 @@
-// Drawing the layers of an eye, each from its own random stream.
+// Drawing the pupil and what floats in an eye, each layer from its own random stream.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,23 +14,13 @@
 #include "aureole/eye/anatomy.h"
 #include "aureole/wave/mask_shapes.h"
 #include "aureole/wave/radial_grating.h"
+#include "eye/before_pupil.h"
 
 namespace aureole::eye {
 namespace {
 
-enum Stream : std::uint64_t {
-    kPupilStream = 1,
-    kLensSmallStream,
-    kLensLargeStream,
-    kVitreousStream,
-    kCorneaStream,
-    kGratingStream,
-    kLashStream,
-};
-
-// Lowest and highest harmonic of the pupil's edge; order 1 would be a shift.
+// Lowest harmonic of the pupil's edge; order 1 would be a shift.
 constexpr int kFirstEdgeHarmonic = 2;
-constexpr int kLastEdgeHarmonic = 8;
 
 // Fibres wander: their displacement is noise whose amplitude falls as 1 / order round the lens, so
 // that neighbours stay nearly parallel.
@@ -136,71 +126,6 @@ std::vector<float> fibre_jitter(const Eye& eye) {
     return jitter;
 }
 
-// Where a source off the axis sees the points of a layer.
-struct Oblique {
-    double shift_x_mm = 0;  // of what lies before the pupil
-    double shift_y_mm = 0;
-    double along_x = 0;  // unit vector from the axis to the source
-    double along_y = 0;
-    double shortening = 0;  // 1 - cosine of the angle
-};
-
-Oblique oblique(const Eye& eye, const FieldPosition& field) {
-    check(field);
-    const double x = std::tan(rad_from_deg(field.x_deg));
-    const double y = std::tan(rad_from_deg(field.y_deg));
-    const double r = std::hypot(x, y);
-    if (r == 0) return {};
-    const double distance_mm = eye.anatomy.lashes.distance_mm;
-    return {-distance_mm * x, -distance_mm * y, x / r, y / r, 1 - 1 / std::hypot(1, r)};
-}
-
-enum class Layer { kPupil, kBeforePupil };
-
-wave::Shape seen(wave::Shape shape, Layer layer, const Oblique& view) {
-    if (view.shortening == 0) return shape;
-    const bool shifted = layer == Layer::kBeforePupil;
-    for (auto& outline : shape.outlines) {
-        for (wave::Point& point : outline) {
-            if (shifted) {
-                point.x_mm += view.shift_x_mm;
-                point.y_mm += view.shift_y_mm;
-            }
-            const double along = point.x_mm * view.along_x + point.y_mm * view.along_y;
-            point.x_mm -= view.shortening * along * view.along_x;
-            point.y_mm -= view.shortening * along * view.along_y;
-        }
-    }
-    return shape;
-}
-
-// How far the upper lid has come down, and the lower one up, from the open eye, mm.
-double lid_descent_mm(const Eye& eye, double closure) {
-    return (1 - eye.anatomy.lower_lid_share) * closure * eye.pupil_diameter_mm;
-}
-double lid_rise_mm(const Eye& eye, double closure) {
-    return eye.anatomy.lower_lid_share * closure * eye.pupil_diameter_mm;
-}
-
-// A lash of the length `span_mm` below the upper lid's edge, which the lower lid has left `gap_mm`
-// of height, as an arc of that length; its tip stands on the lower lid. Root and direction of the
-// chord stay. x = sin(x) / (1 - e) gives half of the arc's angle: x^2 = 6 e (1 + .3 e) to 1 % up to
-// a half circle.
-void bend(wave::Lash& lash, double span_mm, double gap_mm) {
-    const double direction = rad_from_deg(lash.direction_deg);
-    const double length_mm = span_mm / std::sin(direction);
-    const double missing = std::clamp(1 - gap_mm / span_mm, 0.0, 1.0);
-    if (missing == 0) return;
-    const double half_angle = std::min(std::sqrt(6 * missing * (1 + 0.3 * missing)), kPi / 2);
-    const double side = std::copysign(1.0, lash.curvature_per_mm);
-    lash.tip.x_mm += missing * length_mm * std::cos(direction);
-    lash.tip.y_mm += missing * span_mm;
-    lash.direction_deg -= side * deg_from_rad(half_angle);
-    lash.curvature_per_mm += side * 2 * half_angle / length_mm;
-    // Longer ones would come back as a ring.
-    lash.length_mm = std::max(lash.taper_mm, std::min(lash.length_mm, 2 * length_mm));
-}
-
 }  // namespace
 
 wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid, const FieldPosition& field) {
@@ -212,16 +137,20 @@ wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid, const Fiel
         const double amplitude = eye.anatomy.pupil_irregularity * random.normal() / order;
         harmonics.push_back({order, amplitude, random.uniform(0, 2 * kPi)});
     }
-    const double radius_mm = eye.pupil_diameter_mm / 2;
+    const PupilOutline outline(eye);
     wave::Mask pupil(grid);
-    wave::draw(pupil, seen(wave::irregular_disc(radius_mm, harmonics), Layer::kPupil, view));
+    wave::draw(pupil,
+               seen(outline.round() ? wave::irregular_disc(outline.longest_radius_mm(), harmonics)
+                                    : wave::with_harmonics(outline.shape(), harmonics),
+                    Layer::kPupil, view));
     if (eye.eyelid > 0) {
         const auto keep = [&](wave::LidSide side, double edge_y_mm) {
             wave::draw(pupil, seen(wave::lid_opening(side, edge_y_mm), Layer::kBeforePupil, view),
                        wave::Blend::kKeep);
         };
-        keep(wave::LidSide::kUpper, radius_mm - lid_descent_mm(eye, eye.eyelid));
-        keep(wave::LidSide::kLower, lid_rise_mm(eye, eye.eyelid) - radius_mm);
+        const Lids lids(eye, outline, eye.eyelid);
+        keep(wave::LidSide::kUpper, lids.upper_mm);
+        keep(wave::LidSide::kLower, lids.lower_mm);
         if (view.shortening == 0 && !(wave::area_mm2(pupil) > 0)) {
             throw InvalidArgument("eyelid", fmt::format("{}", eye.eyelid),
                                   "leaves no opening; must be smaller");
@@ -276,86 +205,6 @@ std::string grating_resolution_note(const Eye& eye, const wave::ApertureGrid& gr
         "axis: that part of the halo, outside {:.2f} deg at 568 nm, is missing",
         gratings.fibres, grid.samples, grid.samples, resolved_from_mm,
         deg_from_rad(std::asin(mm_from_nm(568) / smallest_period_mm)));
-}
-
-namespace {
-
-// The eyelid's half length: where the row of lashes ends.
-constexpr double kRowEndMm = 15;
-// Draws of a lash beside the pupil until it hangs clear of it; a lash that does not is left out.
-constexpr int kTries = 16;
-
-wave::Lash random_lash(const Eye& eye, double place, Random& random) {
-    const Lashes& lashes = eye.anatomy.lashes;
-    const double radius_mm = eye.pupil_diameter_mm / 2;
-    const double closure = std::max(eye.eyelid, eye.pose.lash_closure);
-    const double upper_edge_mm = radius_mm - lid_descent_mm(eye, closure);
-    const double lower_edge_mm = lid_rise_mm(eye, closure) - radius_mm;
-    const double across = place + 0.12 * random.normal();
-    const double reach = std::clamp(lashes.reach + lashes.reach_sd * random.normal(), 0.05, 1.2);
-    wave::Lash lash;
-    lash.tip = {across * radius_mm,
-                radius_mm - reach * eye.pupil_diameter_mm - lid_descent_mm(eye, closure)};
-    lash.direction_deg = 90 - lashes.angle_sd_deg * random.normal();
-    lash.width_mm = mm_from_um(lashes.width_um) * random.uniform(0.75, 1.25);
-    lash.curvature_per_mm = lashes.curvature_per_mm * random.normal();
-    if (eye.pose.lashes_bend) {
-        // What reaches beyond the lower lid of an open eye hangs in front of it.
-        const double beyond_mm = std::max(reach - 1, 0.0) * eye.pupil_diameter_mm;
-        bend(lash, reach * eye.pupil_diameter_mm, upper_edge_mm - lower_edge_mm + beyond_mm);
-    }
-    return lash;
-}
-
-// Whether all of an outline stays further than the radius from the axis.
-bool clear_of(double radius_mm, const wave::Shape& shape) {
-    for (const auto& outline : shape.outlines) {
-        wave::Point from = outline.back();
-        for (const wave::Point& to : outline) {
-            const double dx = to.x_mm - from.x_mm;
-            const double dy = to.y_mm - from.y_mm;
-            const double square = dx * dx + dy * dy;
-            const double along =
-                square > 0 ? std::clamp(-(from.x_mm * dx + from.y_mm * dy) / square, 0.0, 1.0) : 0;
-            if (std::hypot(from.x_mm + along * dx, from.y_mm + along * dy) <= radius_mm) {
-                return false;
-            }
-            from = to;
-        }
-    }
-    return true;
-}
-
-}  // namespace
-
-wave::Mask draw_lashes(const Eye& eye, const wave::ApertureGrid& grid, const FieldPosition& field) {
-    check(eye);
-    const Oblique view = oblique(eye, field);
-    const double radius_mm = eye.pupil_diameter_mm / 2;
-    Random random(eye.seed, kLashStream);
-    wave::Mask blocked(grid);
-    const auto draw = [&](const wave::Shape& shape) {
-        wave::draw(blocked, seen(shape, Layer::kBeforePupil, view), wave::Blend::kMax);
-    };
-    // Evenly spaced across 85 % of the pupil, then displaced; places in radii of the pupil.
-    const double spacing = 2 * 0.85 / std::max(eye.eyelashes, 1);
-    for (int i = 0; i < eye.eyelashes; ++i) {
-        draw(wave::lash(random_lash(eye, -0.85 + (i + 0.5) * spacing, random)));
-    }
-    if (view.shortening == 0 || eye.eyelashes == 0) return blocked;
-    // The rest of the row, outwards, one to the right and one to the left.
-    const double clear_mm = radius_mm * (1 + eye.anatomy.pupil_irregularity * kLastEdgeHarmonic);
-    for (double place = 0.85 + spacing / 2; place * radius_mm < kRowEndMm; place += spacing) {
-        for (const double side : {1.0, -1.0}) {
-            for (int attempt = 0; attempt < kTries; ++attempt) {
-                const wave::Shape shape = wave::lash(random_lash(eye, side * place, random));
-                if (!clear_of(clear_mm, shape)) continue;
-                draw(shape);
-                break;
-            }
-        }
-    }
-    return blocked;
 }
 
 }  // namespace aureole::eye

@@ -156,8 +156,12 @@ TEST(Lashes, MoveDownWithTheLid) {
     eye.pupil_diameter_mm = 5;
     const auto blocked = [&](double closure) {
         eye.eyelid = closure;
-        return wave::area_mm2(draw_lashes(eye, kGrid));
+        const wave::Mask pupil = draw_pupil(eye, kGrid);
+        wave::Mask lashes = draw_lashes(eye, kGrid);
+        for (std::size_t i = 0; i < kGrid.size(); ++i) lashes.values[i] *= pupil.values[i];
+        return wave::area_mm2(lashes) / wave::area_mm2(pupil);
     };
+    eye.anatomy.lashes.curled_per_mm = 0;
     EXPECT_GT(blocked(0.4), 1.15 * blocked(0));
 }
 

@@ -10,7 +10,9 @@
 
 #include "aureole/base/error.h"
 #include "eye/band_noise.h"
+#include "eye/before_pupil.h"
 #include "eye/piecewise_linear.h"
+#include "eye/pupil_outline.h"
 
 namespace aureole::eye {
 namespace {
@@ -58,18 +60,18 @@ void require(const char* name, double value, double low, double high, const char
 
 double open_share(const Eye& eye) {
     constexpr int kColumns = 512;
-    const double radius = eye.pupil_diameter_mm / 2;
-    const double lower_share = eye.anatomy.lower_lid_share;
-    const double upper_edge = radius - (1 - lower_share) * eye.eyelid * eye.pupil_diameter_mm;
-    const double lower_edge = lower_share * eye.eyelid * eye.pupil_diameter_mm - radius;
+    const PupilOutline pupil(eye);
+    const Lids lids(eye, pupil, eye.eyelid);
+    const double half_width = pupil.half_width_mm();
     double open = 0;
     double all = 0;
     for (int i = 0; i < kColumns; ++i) {
-        const double x = radius * (2 * (i + 0.5) / kColumns - 1);
-        const double edge = std::sqrt(radius * radius - x * x);
+        const double x = half_width * (2 * (i + 0.5) / kColumns - 1);
+        const auto [low, high] = pupil.vertical_chord(x);
         const double sag = kLidRadiusMm - std::sqrt(kLidRadiusMm * kLidRadiusMm - x * x);
-        all += 2 * edge;
-        open += std::max(0.0, std::min(edge, upper_edge - sag) - std::max(-edge, lower_edge + sag));
+        all += high - low;
+        open +=
+            std::max(0.0, std::min(high, lids.upper_mm - sag) - std::max(low, lids.lower_mm + sag));
     }
     return open / all;
 }
@@ -209,7 +211,6 @@ Moment LivingEye::at(double time_s) const noexcept {
                                      std::log10(moment.adaptation_cd_m2));
     const double squinting = 1 - (1 - own.rest.eyelid) * (1 - moment.squint);
     const double blinking = 1 - (1 - squinting) * (1 - moment.blink);
-    pose.lashes_bend = true;
     pose.lash_closure = std::max(pose.lash_closure, blinking);
     own.close_lids(moment, settings.blinks.streaks_only ? squinting : blinking);
     return moment;

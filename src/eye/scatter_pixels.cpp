@@ -152,4 +152,18 @@ void ScatterPixels::row(int dy, int count, float* energy) const {
     }
 }
 
+Image ScatterPixels::image(int width, int height) const {
+    Image out(width, height, 1);
+    const int half_width = width / 2;
+    const int half_height = height / 2;
+    parallel_for(static_cast<std::size_t>(half_height) + 1, [&](std::size_t y, int) {
+        const int dy = static_cast<int>(y);
+        float* below = out.row(half_height + dy, 0) + half_width;
+        row(dy, half_width + 1, below);
+        for (int dx = 1; dx <= half_width; ++dx) below[-dx] = below[dx];
+        std::copy_n(below - half_width, width, out.row(half_height - dy, 0));
+    });
+    return out;
+}
+
 }  // namespace aureole::eye

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "aureole/eye/scatter.h"
+#include "aureole/image/image.h"
 #include "aureole/wave/psf.h"
 
 namespace aureole::eye {
@@ -22,6 +23,9 @@ class ScatterPixels {
 
     // Energy in the pixels (dx, dy), dx = 0 .. count - 1, relative to the central pixel; dy >= 0.
     void row(int dy, int count, float* energy) const;
+
+    // The central pixels, `width` x `height` (both odd) of them; one channel.
+    Image image(int width, int height) const;
 
     // Share of energy that misses the kernel: an integral of the model over the outside, along
     // the kernel's edge, independent of the pixels.

@@ -19,9 +19,14 @@ struct SpectralLevel {
 };
 
 // Levels from the centre to the end of the kernel, without gaps. Throws InvalidArgument for a
-// sampling outside its ranges.
+// sampling outside its ranges, and one by colour.
 std::vector<SpectralLevel> spectral_levels(const SpectralSampling& sampling,
                                            const wave::KernelGrid& grid);
+
+// The same for each light that a kernel has channels for: one, or the primaries by colour. Throws
+// InvalidArgument for a sampling outside its ranges.
+std::vector<std::vector<SpectralLevel>> levels_of_lights(const SpectralSampling& sampling,
+                                                         const wave::KernelGrid& grid);
 
 // wave::add_spectral for each level; the pattern must be symmetric under a half turn.
 void add_spectral(const wave::PatternIntegral& pattern, double extent_mm, wave::PixelRule rule,
@@ -29,6 +34,6 @@ void add_spectral(const wave::PatternIntegral& pattern, double extent_mm, wave::
                   const ImageView& out);
 
 // Longest wavelength that carries weight, nm.
-double longest_wavelength_nm(const std::vector<SpectralLevel>& levels);
+double longest_wavelength_nm(const std::vector<std::vector<SpectralLevel>>& lights);
 
 }  // namespace aureole::eye

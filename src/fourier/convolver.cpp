@@ -14,12 +14,13 @@ namespace {
 
 void check_kernel(const ConstImageView& kernel, int channels) {
     if (kernel.width <= 0 || kernel.height <= 0 ||
-        (kernel.channels != 1 && kernel.channels != channels)) {
-        throw InvalidArgument(
-            "kernel",
-            std::to_string(kernel.width) + "x" + std::to_string(kernel.height) + ", " +
-                std::to_string(kernel.channels) + " channels",
-            "must be at least 1x1 and have 1 channel or the picture's " + std::to_string(channels));
+        (kernel.channels != 1 && kernel.channels != channels &&
+         kernel.channels != channels * channels)) {
+        throw InvalidArgument("kernel",
+                              std::to_string(kernel.width) + "x" + std::to_string(kernel.height) +
+                                  ", " + std::to_string(kernel.channels) + " channels",
+                              "must be at least 1x1 and have 1 channel, the picture's " +
+                                  std::to_string(channels) + ", or one for each pair of them");
     }
 }
 
@@ -84,10 +85,12 @@ struct Convolver::Impl {
           across(padded(w + reach_x.radius())),
           down(padded(h + reach_y.radius())),
           kernel_channels(kernel.channels),
+          mixes(kernel.channels != 1 && kernel.channels != c),
           slabs_per_channel(static_cast<int>(batches(down.length / 2 + 1, simd.lanes))),
           scratch(element() * (static_cast<std::size_t>(across.length) +
                                static_cast<std::size_t>(down.length + 1) *
-                                   (static_cast<std::size_t>(channels) + 1))),
+                                   (static_cast<std::size_t>(channels) + 1) +
+                               (mixes ? static_cast<std::size_t>(across.length * channels) : 0))),
           spectrum(element() * static_cast<std::size_t>(across.length) * slabs(kernel_channels)) {
         for (int k = 0; k < channels; ++k) peaks.push_back(peak(kernel, kernel_channel(k)));
         prepare(cut(kernel, reach_x, reach_y));
@@ -109,7 +112,11 @@ struct Convolver::Impl {
         return spectrum.data() + slab * element() * static_cast<std::size_t>(across.length);
     }
 
-    int kernel_channel(int channel) const { return kernel_channels == 1 ? 0 : channel; }
+    // The one that leads from a picture channel to itself.
+    int kernel_channel(int channel) const {
+        if (kernel_channels == 1) return 0;
+        return mixes ? channel * (channels + 1) : channel;
+    }
 
     // Transforms the kernel in the memory of its spectrum.
     void prepare(const ConstImageView& kernel) {
@@ -120,12 +127,17 @@ struct Convolver::Impl {
         const int first_column = (across.length - reach_x.before) % across.length;
         const std::size_t floats = element() * static_cast<std::size_t>(across.length);
         const RowPass rows{&across, kernel.width};
+        std::vector<float> lower_by(static_cast<std::size_t>(kernel_channels));
+        for (int k = 0; k < channels; ++k) {
+            lower_by[static_cast<std::size_t>(kernel_channel(k))] =
+                peaks[static_cast<std::size_t>(k)];
+        }
         for (int c = 0; c < kernel_channels; ++c) {
             const ConstImageView plane = kernel.channel_range(c, 1);
             const ColumnPass columns{&down,
                                      first_row,
                                      kernel.width,
-                                     peaks[static_cast<std::size_t>(c)],
+                                     lower_by[static_cast<std::size_t>(c)],
                                      reach_x.before,
                                      nullptr,
                                      spectrum.data() + slabs(c) * floats,
@@ -157,16 +169,30 @@ struct Convolver::Impl {
         parallel_for(column_batches, [&](std::size_t batch, int worker) {
             simd.columns_in(columns, in, static_cast<int>(batch), scratch.of(worker));
         });
+        if (mixes) {
+            parallel_for(slabs(1), [&](std::size_t g, int worker) {
+                simd.mix_rows(rows, channels, slab_memory.data() + g * floats, slabs(1) * floats,
+                              spectrum_of(g),
+                              slabs(1) * element() * static_cast<std::size_t>(across.length),
+                              scratch.of(worker));
+            });
+        } else {
+            convolve_slabs(rows);
+        }
+        parallel_for(column_batches, [&](std::size_t batch, int worker) {
+            simd.columns_out(columns, in, peaks.data(), out, static_cast<int>(batch),
+                             scratch.of(worker));
+        });
+    }
+
+    void convolve_slabs(const RowPass& rows) noexcept {
+        const std::size_t floats = slab_floats(width);
         // Channels of one slab in turn: a shared kernel spectrum is read once from memory.
         parallel_for(slabs(channels), [&](std::size_t item, int worker) {
             const std::size_t g = item / static_cast<std::size_t>(channels);
             const int c = static_cast<int>(item % static_cast<std::size_t>(channels));
             simd.convolve_rows(rows, slab_memory.data() + (slabs(c) + g) * floats,
                                spectrum_of(slabs(kernel_channel(c)) + g), scratch.of(worker));
-        });
-        parallel_for(column_batches, [&](std::size_t batch, int worker) {
-            simd.columns_out(columns, in, peaks.data(), out, static_cast<int>(batch),
-                             scratch.of(worker));
         });
     }
 
@@ -179,6 +205,7 @@ struct Convolver::Impl {
     LinePlan across;
     LinePlan down;
     int kernel_channels;
+    bool mixes;  // the kernel is a matrix
     int slabs_per_channel;
     Scratch scratch;
     std::vector<float> peaks;  // per picture channel
@@ -229,18 +256,24 @@ void convolve_directly(const ConstImageView& in, const ConstImageView& kernel, c
         const int first_y = std::max(0, y - reach_y.after);
         const int last_y = std::min(in.height - 1, y + reach_y.before);
         for (int c = 0; c < in.channels; ++c) {
-            const int kernel_channel = kernel.channels == 1 ? 0 : c;
             for (int x = 0; x < in.width; ++x) {
                 const int first_x = std::max(0, x - reach_x.after);
                 const int last_x = std::min(in.width - 1, x + reach_x.before);
                 double sum = 0;
-                for (int sy = first_y; sy <= last_y; ++sy) {
-                    for (int sx = first_x; sx <= last_x; ++sx) {
-                        const double value = in.at(sx, sy, c);
-                        sum += weight(sx, sy) * value *
-                               kernel.at(reach_x.centre + x - sx, reach_y.centre + y - sy,
-                                         kernel_channel);
+                const auto add_channel = [&](int from, int kernel_channel) {
+                    for (int sy = first_y; sy <= last_y; ++sy) {
+                        for (int sx = first_x; sx <= last_x; ++sx) {
+                            const double value = in.at(sx, sy, from);
+                            sum += weight(sx, sy) * value *
+                                   kernel.at(reach_x.centre + x - sx, reach_y.centre + y - sy,
+                                             kernel_channel);
+                        }
                     }
+                };
+                if (kernel.channels == 1 || kernel.channels == in.channels) {
+                    add_channel(c, kernel.channels == 1 ? 0 : c);
+                } else {
+                    for (int j = 0; j < in.channels; ++j) add_channel(j, in.channels * j + c);
                 }
                 out.at(x, y, c) = static_cast<float>(sum / weight(x, y));
             }

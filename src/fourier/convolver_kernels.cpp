@@ -193,14 +193,13 @@ void columns_in(const ColumnPass& pass, const ConstImageView& in, int batch, flo
     const int x0 = batch * 2 * kLanes;
     float* spectrum = scratch;
     float* lines = element(scratch, n);
-    const bool cyclic = pass.first_row != 0;
-    const int valid = cyclic ? n : in.height;
+    const int valid = std::min(pass.first_row + in.height, n);
     const std::size_t channel_floats = static_cast<std::size_t>(valid) * kElement;
-    if (cyclic) {
+    if (pass.first_row > 0) {
         std::fill(lines, lines + channel_floats * static_cast<std::size_t>(in.channels), 0.0F);
     }
     for (int y = 0; y < in.height; ++y) {
-        const int row = cyclic ? (pass.first_row + y) % n : y;
+        const int row = (pass.first_row + y) % n;
         load_row(in, pass.weights, x0, y, row, channel_floats, lines);
     }
     for (int c = 0; c < in.channels; ++c, lines += channel_floats) {
@@ -243,7 +242,70 @@ void columns_out(const ColumnPass& pass, const ConstImageView& in, const float* 
 }
 
 void convolve_rows(const RowPass& pass, float* slab, const float* spectrum, float* scratch) {
-    convolve_line(*pass.plan, slab, slab, pass.width, spectrum, scratch);
+    convolve_line<Spectrum::kComplex>(*pass.plan, slab, pass.width, slab, pass.width, spectrum,
+                                      scratch);
+}
+
+void convolve_node(const NodePass& pass, const float* slab, const float* spectrum, float* sum,
+                   float* scratch) {
+    float* x = element(scratch, pass.plan->length);
+    for (int i = 0; i < pass.margin; ++i) store(zero(), element(scratch, i));
+    const float* from = slab + static_cast<std::size_t>(pass.first_source) * kElement;
+    float* to = element(scratch, pass.margin);
+    for (int i = 0; i < pass.sources; ++i, from += kElement, to += kElement) {
+        store(scale(load(from), pass.shares[i]), to);
+    }
+    convolve_line<Spectrum::kReal>(*pass.plan, scratch, pass.margin + pass.sources, scratch,
+                                   pass.targets, spectrum, x);
+    float* into = element(sum, pass.first_source - pass.margin);
+    for (int i = 0; i < pass.targets; ++i, into += kElement) {
+        store(add(load(into), load(element(scratch, i))), into);
+    }
+}
+
+// With f(-x) = conj f(x) the transform of f is real: f + i g holds two of them.
+void even_spectra(const LinePlan& plan, int reach, float scale_by, const float* first,
+                  const float* second, float* spectra, float* scratch) {
+    const int n = plan.length;
+    for (int x = reach + 1; x < n - reach; ++x) store(zero(), element(scratch, x));
+    const Vec s = hn::Set(D(), scale_by);
+    for (int x = 0; x <= reach; ++x) {
+        const auto at = static_cast<std::size_t>(x) * kElement;
+        const Complex f = load(first + at);
+        const Complex g = second == nullptr ? zero() : load(second + at);
+        if (x > 0) {
+            store({hn::Mul(s, hn::Add(f.re, g.im)), hn::Mul(s, hn::Sub(g.re, f.im))},
+                  element(scratch, n - x));
+            store({hn::Mul(s, hn::Sub(f.re, g.im)), hn::Mul(s, hn::Add(g.re, f.im))},
+                  element(scratch, x));
+        } else {
+            store({hn::Mul(s, f.re), hn::Mul(s, g.re)}, scratch);
+        }
+    }
+    forward_line(plan, scratch, n, spectra);
+}
+
+void mix_rows(const RowPass& pass, int channels, float* slab, std::size_t slab_floats,
+              const float* spectrum, std::size_t spectrum_floats, float* scratch) {
+    const int n = pass.plan->length;
+    const auto count = static_cast<std::size_t>(channels);
+    const std::size_t line_floats = static_cast<std::size_t>(n) * kElement;
+    float* sum = scratch + count * line_floats;
+    for (std::size_t j = 0; j < count; ++j) {
+        forward_line(*pass.plan, slab + j * slab_floats, pass.width, scratch + j * line_floats);
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+        for (int x = 0; x < n; ++x) {
+            Complex value = zero();
+            for (std::size_t j = 0; j < count; ++j) {
+                const float* kernel = spectrum + (count * j + c) * spectrum_floats;
+                value = add(value, multiply(load(element(scratch + j * line_floats, x)),
+                                            load(kernel + static_cast<std::size_t>(x) * kElement)));
+            }
+            store(value, element(sum, x));
+        }
+        inverse_line(*pass.plan, sum, slab + c * slab_floats, pass.width);
+    }
 }
 
 void spectrum_rows(const RowPass& pass, int first_column, float scale_by, float* slab,
@@ -259,7 +321,8 @@ void spectrum_rows(const RowPass& pass, int first_column, float scale_by, float*
 }  // namespace
 
 ConvolverKernels make_convolver_kernels() {
-    return {kLanes, &columns_in, &columns_out, &convolve_rows, &spectrum_rows};
+    return {kLanes,    &columns_in,    &columns_out,   &convolve_rows,
+            &mix_rows, &spectrum_rows, &convolve_node, &even_spectra};
 }
 
 }  // namespace aureole::fourier::HWY_NAMESPACE

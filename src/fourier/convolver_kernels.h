@@ -32,6 +32,16 @@ struct RowPass {
     int width;             // valid elements of a slab
 };
 
+// What one node of a kernel that changes over the picture does to one slab (varying_convolver.h).
+struct NodePass {
+    const LinePlan* plan;  // along the rows
+    int first_source;      // elements of the slab that the node sees ...
+    int sources;
+    const float* shares;  // ... each times its share
+    int margin;           // the first element that the node reaches is first_source - margin
+    int targets;
+};
+
 struct ConvolverKernels {
     int lanes;
     // Picture columns [2 V batch, 2 V (batch + 1)) of every channel into the slabs.
@@ -42,10 +52,25 @@ struct ConvolverKernels {
                         const ImageView& out, int batch, float* scratch);
     // Convolves a slab with the kernel's spectrum, in place. Scratch: 2 V * plan length floats.
     void (*convolve_rows)(const RowPass& pass, float* slab, const float* spectrum, float* scratch);
+    // The same for `channels` slabs at once, slab_floats apart, with a matrix of spectra: channel c
+    // becomes the sum over j of channel j convolved with that at spectrum + (channels j + c)
+    // spectrum_floats. Scratch: (channels + 1) * 2 V * plan length floats.
+    void (*mix_rows)(const RowPass& pass, int channels, float* slab, std::size_t slab_floats,
+                     const float* spectrum, std::size_t spectrum_floats, float* scratch);
     // Turns a slab of the kernel into its spectrum, in place: column x of the slab is put at column
     // first + x of the transform, cyclically. `slab`: 2 V * plan length floats.
     void (*spectrum_rows)(const RowPass& pass, int first_column, float scale, float* slab,
                           float* scratch);
+    // Adds a node's light to the slab `sum`. `spectrum` is one of a pair made by even_spectra: its
+    // second begins V floats after the first. Scratch: 4 V * plan length floats.
+    void (*convolve_node)(const NodePass& pass, const float* slab, const float* spectrum,
+                          float* sum, float* scratch);
+    // The spectra, real, of a kernel that a half turn does not change, centred at column 0 of the
+    // transform, from two slabs of its columns 0 to `reach` (`second` may be null: zeros).
+    // `spectra`: 2 V * plan length floats, V of the first slab and V of the second in each element.
+    // Scratch: as much.
+    void (*even_spectra)(const LinePlan& plan, int reach, float scale, const float* first,
+                         const float* second, float* spectra, float* scratch);
 };
 
 ConvolverKernels convolver_kernels();

@@ -75,7 +75,8 @@ INSTANTIATE_TEST_SUITE_P(Sizes, ConvolverCase,
                                          Case{64, 48, 1, 7, 5, 1}, Case{33, 40, 3, 101, 99, 3},
                                          Case{127, 1, 3, 4, 6, 3}, Case{1, 127, 2, 3, 255, 2},
                                          Case{65, 67, 5, 129, 3, 1}, Case{130, 50, 3, 2, 2, 3},
-                                         Case{97, 89, 3, 193, 177, 3}, Case{1, 12, 20, 1, 1, 1}),
+                                         Case{97, 89, 3, 193, 177, 3}, Case{1, 12, 20, 1, 1, 1},
+                                         Case{33, 40, 3, 101, 99, 9}, Case{64, 48, 2, 7, 5, 4}),
                          [](const auto& instance) {
                              const Case& p = instance.param;
                              return std::to_string(p.width) + "x" + std::to_string(p.height) + "x" +
@@ -84,6 +85,23 @@ INSTANTIATE_TEST_SUITE_P(Sizes, ConvolverCase,
                                     std::to_string(p.kernel_height) + "x" +
                                     std::to_string(p.kernel_channels);
                          });
+
+// A matrix moves the light of channel 1 into channel 2, three pixels to the right.
+TEST(Convolver, MatrixLeadsFromChannelToChannel) {
+    Image in(20, 10, 3);
+    in.at(5, 4, 1) = 1;
+    Image kernel(9, 9, 9);
+    kernel.at(7, 4, 3 * 1 + 2) = 0.25F;
+    Image out(20, 10, 3);
+    Convolver(20, 10, 3, kernel).run(in, out);
+    for (int c = 0; c < 3; ++c) {
+        for (int y = 0; y < 10; ++y) {
+            for (int x = 0; x < 20; ++x) {
+                EXPECT_NEAR(out.at(x, y, c), x == 8 && y == 4 && c == 2 ? 0.25F : 0.0F, 1e-7F);
+            }
+        }
+    }
+}
 
 TEST(Convolver, SeesInterleavedPlanarAndOddStridesAlike) {
     constexpr int kWidth = 75;

@@ -262,14 +262,24 @@ void leaf_pass(float* x, int count) {
     }
 }
 
+// A kernel's spectrum: complex, or real with one vector used of each element.
+enum class Spectrum { kComplex, kReal };
+
 // Forward leaf, product with the kernel's spectrum, inverse leaf: while in registers.
-template <int R>
+template <int R, Spectrum kSpectrum>
 void leaf_product(float* x, const float* kernel, int count) {
     for (int block = 0; block < count; ++block, x += R * kElement, kernel += R * kElement) {
         Complex t[R];
         for (unsigned i = 0; i < R; ++i) t[i] = load(x + i * kElement);
         butterfly<false>(t);
-        for (unsigned i = 0; i < R; ++i) t[i] = multiply(t[i], load(kernel + i * kElement));
+        for (unsigned i = 0; i < R; ++i) {
+            if constexpr (kSpectrum == Spectrum::kReal) {
+                const Vec factor = hn::Load(D(), kernel + i * kElement);
+                t[i] = {hn::Mul(t[i].re, factor), hn::Mul(t[i].im, factor)};
+            } else {
+                t[i] = multiply(t[i], load(kernel + i * kElement));
+            }
+        }
         butterfly<true>(t);
         for (unsigned i = 0; i < R; ++i) store(t[i], x + i * kElement);
     }
@@ -297,8 +307,9 @@ HWY_INLINE void with_radix(int radix, const Function& function) {
 // The passes after pass `level` on `count` neighbouring blocks of that pass's stride.
 inline void forward_rest(const LinePlan& plan, std::size_t level, float* x, int count);
 inline void inverse_rest(const LinePlan& plan, std::size_t level, float* x, int count);
-inline void product_rest(const LinePlan& plan, std::size_t level, float* x, const float* kernel,
-                         int count);
+template <Spectrum kSpectrum>
+void product_rest(const LinePlan& plan, std::size_t level, float* x, const float* kernel,
+                  int count);
 
 inline void forward_rest(const LinePlan& plan, std::size_t level, float* x, int count) {
     if (level + 1 == plan.passes.size()) return;
@@ -332,18 +343,20 @@ inline void inverse_rest(const LinePlan& plan, std::size_t level, float* x, int 
     }
 }
 
-inline void product_rest(const LinePlan& plan, std::size_t level, float* x, const float* kernel,
-                         int count) {
+template <Spectrum kSpectrum>
+void product_rest(const LinePlan& plan, std::size_t level, float* x, const float* kernel,
+                  int count) {
     const LinePass& pass = plan.passes[level + 1];
     if (pass.stride == 1) {
-        with_radix(pass.radix, [&]<int R>() HWY_ATTR { leaf_product<R>(x, kernel, count); });
+        with_radix(pass.radix,
+                   [&]<int R>() HWY_ATTR { leaf_product<R, kSpectrum>(x, kernel, count); });
         return;
     }
     for (int block = 0; block < count; ++block) {
         with_radix(pass.radix, [&]<int R>() HWY_ATTR {
             forward_pass<R, false>(x, pass.length, x, pass.stride, pass.twiddles.data());
         });
-        product_rest(plan, level + 1, x, kernel, pass.radix);
+        product_rest<kSpectrum>(plan, level + 1, x, kernel, pass.radix);
         with_radix(pass.radix, [&]<int R>() HWY_ATTR {
             inverse_pass<R, false>(x, x, pass.length, pass.stride, pass.twiddles.data());
         });
@@ -381,16 +394,18 @@ inline void inverse_line(const LinePlan& plan, float* x, float* destination, int
 }
 
 // Circular convolution with a spectrum given in the plan's order; the plan has two passes or
-// more. `source` and `destination` hold `valid` elements and may be equal; `x` is scratch.
-inline void convolve_line(const LinePlan& plan, const float* source, float* destination, int valid,
-                          const float* kernel, float* x) {
+// more. `source` holds `valid` elements followed by zeros, the first `wanted` of the result are
+// stored to `destination` (may be the source); `x` is scratch.
+template <Spectrum kSpectrum>
+void convolve_line(const LinePlan& plan, const float* source, int valid, float* destination,
+                   int wanted, const float* kernel, float* x) {
     const LinePass& first = plan.passes.front();
     with_radix(first.radix, [&]<int R>() HWY_ATTR {
         forward_pass<R, true>(source, valid, x, first.stride, first.twiddles.data());
     });
-    product_rest(plan, 0, x, kernel, first.radix);
+    product_rest<kSpectrum>(plan, 0, x, kernel, first.radix);
     with_radix(first.radix, [&]<int R>() HWY_ATTR {
-        inverse_pass<R, true>(x, destination, valid, first.stride, first.twiddles.data());
+        inverse_pass<R, true>(x, destination, wanted, first.stride, first.twiddles.data());
     });
 }
 

@@ -29,10 +29,10 @@ Image noise(int width, int height, int channels, std::uint64_t seed) {
 }
 
 KernelNodes nodes(int columns, int rows, int width, int height, int channels, std::uint64_t seed) {
-    KernelNodes part{columns, rows, {}};
+    KernelNodes part{columns, rows, {}, {}};
     for (int n = 0; n < columns * rows; ++n) {
-        part.kernels.push_back(
-            noise(width, height, channels, seed + static_cast<std::uint64_t>(n)));
+        part.halves.push_back(
+            right_half(noise(width, height, channels, seed + static_cast<std::uint64_t>(n))));
     }
     return part;
 }
@@ -101,6 +101,7 @@ TEST(VaryingConvolver, EqualsTheSumWithTheKernelOfEachSource) {
     cases.push_back({19, 17, 3, {nodes(1, 6, 91, 85, 3, 80)}});   // reaches beyond the picture
     cases.push_back({16, 16, 1, {nodes(16, 16, 3, 3, 1, 200)}});  // a node per pixel
     cases.push_back({40, 1, 1, {nodes(3, 1, 5, 1, 1, 500)}});
+    cases.push_back({25, 30, 3, {principal_components(nodes(4, 5, 9, 7, 3, 600), 3)}});
     for (const Case& c : cases) {
         const Image in = noise(c.width, c.height, c.channels, 7);
         Image weights = noise(c.width, c.height, 1, 8);
@@ -117,13 +118,13 @@ TEST(VaryingConvolver, EqualsTheSumWithTheKernelOfEachSource) {
 }
 
 TEST(VaryingConvolver, WithEqualKernelsIsAConvolution) {
-    const Image kernel = noise(15, 9, 3, 3);
-    const KernelNodes part{3, 4, std::vector<Image>(12, kernel)};
+    const Image half = right_half(noise(15, 9, 3, 3));
+    const KernelNodes part{3, 4, std::vector<Image>(12, half), {}};
     const Image in = noise(64, 50, 3, 4);
     Image varying(64, 50, 3);
     VaryingConvolver(64, 50, 3, {part}).run(in, varying);
     Image plain(64, 50, 3);
-    Convolver(64, 50, 3, kernel).run(in, plain);
+    Convolver(64, 50, 3, whole_kernel(half)).run(in, plain);
     EXPECT_LT(worst_difference(varying, plain), 2e-6);
 }
 
@@ -138,6 +139,47 @@ TEST(VaryingConvolver, GivesTheSameBitsOnAnyNumberOfThreads) {
         convolver.run(in, second);
     }
     EXPECT_EQ(std::memcmp(first.plane(0), second.plane(0), 3 * first.pixels() * sizeof(float)), 0);
+}
+
+TEST(VaryingConvolver, HalvesAreTheMeanOfKernelAndHalfTurn) {
+    const Image kernel = noise(7, 5, 2, 11);
+    const Image even = whole_kernel(right_half(kernel));
+    for (int c = 0; c < 2; ++c) {
+        for (int y = 0; y < 5; ++y) {
+            for (int x = 0; x < 7; ++x) {
+                EXPECT_EQ(even.at(x, y, c),
+                          0.5F * (kernel.at(x, y, c) + kernel.at(6 - x, 4 - y, c)));
+            }
+        }
+    }
+}
+
+TEST(PrincipalComponents, HoldWhatLiesInAPlane) {
+    // Five kernels that are mixtures of three: mean and two components hold them.
+    const Image a = noise(9, 7, 3, 1);
+    const Image b = noise(9, 7, 3, 2);
+    const Image c = noise(9, 7, 3, 3);
+    KernelNodes part{5, 1, {}, {}};
+    for (int n = 0; n < 5; ++n) {
+        Image kernel(9, 7, 3);
+        for (std::size_t i = 0; i < 3 * kernel.pixels(); ++i) {
+            kernel.plane(0)[i] = a.plane(0)[i] + static_cast<float>(n) * b.plane(0)[i] +
+                                 static_cast<float>(n * n) * c.plane(0)[i];
+        }
+        part.halves.push_back(right_half(kernel));
+    }
+    const KernelNodes two = principal_components(part, 2);
+    const KernelNodes one = principal_components(part, 1);
+    ASSERT_EQ(two.halves.size(), 3U);
+    double missing = 0;
+    for (int n = 0; n < 5; ++n) {
+        EXPECT_LT(worst_difference(two.half_of(n), part.half_of(n)), 1e-5) << n;
+        missing = std::max(missing, worst_difference(one.half_of(n), part.half_of(n)));
+    }
+    EXPECT_GT(missing, 1e-3);
+    // As many as there are nodes: as they were.
+    EXPECT_TRUE(principal_components(part, 4).mixture.empty());
+    EXPECT_THROW(principal_components(part, 0), InvalidArgument);
 }
 
 TEST(VaryingConvolver, BlendsSumToOneAndAreExactAtNodes) {
@@ -158,10 +200,11 @@ TEST(VaryingConvolver, BlendsSumToOneAndAreExactAtNodes) {
 TEST(VaryingConvolver, RefusesWhatItCannotHold) {
     const auto make = [](KernelNodes part) { VaryingConvolver(20, 10, 1, {std::move(part)}); };
     EXPECT_THROW(make(nodes(21, 1, 3, 3, 1, 1)), InvalidArgument);
-    EXPECT_THROW(make(nodes(2, 2, 4, 3, 1, 1)), InvalidArgument);
+    EXPECT_THROW(right_half(noise(4, 3, 1, 1)), InvalidArgument);
+    EXPECT_THROW(make({1, 1, {noise(3, 4, 1, 1)}, {}}), InvalidArgument);
     EXPECT_THROW(make(nodes(2, 2, 3, 3, 3, 1)), InvalidArgument);
     KernelNodes missing = nodes(2, 2, 3, 3, 1, 1);
-    missing.kernels.pop_back();
+    missing.halves.pop_back();
     EXPECT_THROW(make(missing), InvalidArgument);
     EXPECT_THROW(VaryingConvolver(0, 10, 1, {}), InvalidArgument);
 }

@@ -7,9 +7,9 @@
 #include <mutex>
 
 #include "aureole/base/parallel.h"
+#include "aureole/base/random.h"
+#include "aureole/base/units.h"
 #include "aureole/sources/brightness_histogram.h"
-#include "glare/hybrid.h"
-#include "glare/sprite_painter.h"
 
 namespace aureole::glare {
 namespace {
@@ -48,132 +48,152 @@ void fill(Image& light, float value) {
     }
 }
 
-// Clusters in a grid, between pixels or on them.
-std::vector<sources::Cluster> clusters_in_grid(double fraction) {
-    constexpr int kStep = 64;
+// Clusters all over what a layer shows, between pixels or on them.
+std::vector<sources::Cluster> clusters_over(const SpriteLayer& layer, int count, double fraction,
+                                            double energy) {
     std::vector<sources::Cluster> clusters;
-    for (int y = kStep / 2; y < kHeight; y += kStep) {
-        for (int x = kStep / 2; x < kWidth; x += kStep) {
-            sources::Cluster cluster;
-            cluster.centroid_x = x + 0.5 + fraction;
-            cluster.centroid_y = y + 0.5 + fraction;
-            cluster.energy = {1, 1, 1};
-            clusters.push_back(cluster);
-        }
+    Random random(1);
+    for (int i = 0; i < count; ++i) {
+        const auto place = [&](int size) {
+            const auto pixel = static_cast<int>(random.uniform(0, size)) - layer.margin();
+            return layer.scale() * (pixel + 0.5 + fraction);
+        };
+        sources::Cluster cluster;
+        cluster.centroid_x = place(layer.width());
+        cluster.centroid_y = place(layer.height());
+        cluster.energy.fill(static_cast<float>(energy));
+        clusters.push_back(cluster);
     }
     return clusters;
 }
 
-// Seconds to draw a layer's sprites, and their work.
-struct Drawing {
-    double seconds = 0;
-    SpriteWork work;
-};
+class DrawingTimer {
+  public:
+    DrawingTimer(SpriteLayer& layer, int channels)
+        : layer_(layer), channels_(channels), scratch_(static_cast<std::size_t>(max_workers())) {
+        for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
+        empty_ = seconds({}, 0).seconds;
+    }
 
-Drawing drawing_of(SpriteLayer& layer, double fraction, std::vector<Buffer>& scratch) {
-    Drawing drawing;
-    drawing.work = layer.make(clusters_in_grid(fraction), 0).work;
-    drawing.seconds = least_seconds(kRounds, [&] {
-        parallel_for(layer.tiles().size(), [&](std::size_t i, int worker) {
-            layer.draw(i, layer.tiles().cleared_tile(
-                              i, 3, scratch[static_cast<std::size_t>(worker)].data()));
-        });
-    });
-    return drawing;
-}
-
-void measure_drawing(MachineSpeed& speed) {
-    std::vector<Buffer> scratch(static_cast<std::size_t>(max_workers()));
-    for (Buffer& buffer : scratch) buffer = Buffer(3 * SpriteTiles::kPlane);
-    constexpr int kSmall = 8;
-    constexpr int kLarge = 100;
-    SpriteLayer large(kWidth, kHeight, 3, 1, 0, wide_kernel(kLarge), 1);
-    SpriteLayer small(kWidth, kHeight, 3, 1, 0, wide_kernel(kSmall), 1);
-    const Drawing one = drawing_of(large, 0, scratch);
-    const Drawing four = drawing_of(large, 0.25, scratch);
-    const Drawing rows = drawing_of(small, 0, scratch);
-    const Drawing none = [&] {
+    struct Drawing {
+        double seconds = 0;  // beyond those of empty tiles
+        SpriteWork work;
+    };
+    Drawing seconds(const std::vector<sources::Cluster>& clusters, double level) {
         Drawing drawing;
-        large.make({}, 0);
-        drawing.seconds = least_seconds(kRounds, [&] {
-            parallel_for(large.tiles().size(), [&](std::size_t i, int worker) {
-                large.draw(i, large.tiles().cleared_tile(
-                                  i, 3, scratch[static_cast<std::size_t>(worker)].data()));
+        drawing.work = layer_.make(clusters, level).work;
+        const double all = least_seconds(kRounds, [&] {
+            parallel_for(layer_.tiles().size(), [&](std::size_t i, int worker) {
+                layer_.draw(i,
+                            layer_.tiles().cleared_tile(
+                                i, channels_, scratch_[static_cast<std::size_t>(worker)].data()));
             });
         });
+        drawing.seconds = std::max(0.05 * all, all - empty_);
         return drawing;
-    }();
-    speed.row = std::max(0.0, rows.seconds - none.seconds) / rows.work.rows;
-    const auto per_pixel = [&](const Drawing& drawing) {
-        const double left = drawing.seconds - none.seconds - speed.row * drawing.work.rows;
-        return std::max(left, 0.2 * drawing.seconds) / drawing.work.pixels();
-    };
-    speed.one_tap = per_pixel(one);
-    speed.four_taps = per_pixel(four);
-}
+    }
 
-void measure_painting(MachineSpeed& speed) {
-    constexpr int kRadius = 32;
-    SpriteOptions options;
-    options.clusters.dim_limit = 0.5F;
-    SpritePainter painter(kWidth, kHeight, 3, wide_kernel(kRadius), options, nullptr);
-    Image light(kWidth, kHeight, 3);
-    Image out(kWidth, kHeight, 3);
-    fill(light, 0.25F);
-    fill(out, 0);
-    sources::BrightnessHistogram histogram;
-    speed.histogram = least_seconds(kRounds, [&] { histogram.measure(light, nullptr); }) / kPixels;
-    painter.plan(light, nullptr, histogram);
-    speed.tile =
-        least_seconds(kRounds, [&] { painter.draw(light, out, nullptr, histogram); }) / kPixels;
-    // Pixels alone, in one block of three.
-    for (int y = 0; y < kHeight; y += 4) {
-        for (int x = (y / 16 % 3) * 16; x < kWidth; x += 48) {
-            for (int c = 0; c < 3; ++c) light.at(x, y, c) = 1;
+  private:
+    SpriteLayer& layer_;
+    int channels_;
+    std::vector<Buffer> scratch_;
+    double empty_ = 0;
+};
+
+// Drawing of sprites apart: what the passes over tiles cost.
+class PaintingTimer {
+  public:
+    PaintingTimer()
+        : painter_(kWidth, kHeight, 3, wide_kernel(kRadius), options(), nullptr),
+          light_(kWidth, kHeight, 3),
+          out_(kWidth, kHeight, 3) {
+        fill(light_, kLimit / 2);
+        fill(out_, 0);
+        sprite_ = drawing_speed(painter_.near(), 3);
+    }
+
+    void add_square(int x0, int y0, int side) {
+        for (int c = 0; c < 3; ++c) {
+            for (int y = y0; y < y0 + side; ++y) std::fill_n(&light_.at(x0, y, c), side, 1.0F);
         }
     }
-    histogram.measure(light, nullptr);
+
+    // Seconds of drawing, without its sprites.
+    double seconds() {
+        histogram_.look(light_, nullptr);
+        plan_seconds =
+            least_seconds(kRounds, [&] { plan = painter_.plan(light_, nullptr, histogram_); });
+        const double all =
+            least_seconds(kRounds, [&] { painter_.draw(light_, out_, nullptr, histogram_); });
+        return std::max(0.0, all - sprite_.seconds(plan.near));
+    }
+
     SpritePainter::Plan plan;
-    const double planning =
-        least_seconds(kRounds, [&] { plan = painter.plan(light, nullptr, histogram); });
-    speed.search = planning / histogram.blocks_above(0.5F);
-    const double drawing =
-        least_seconds(kRounds, [&] { painter.draw(light, out, nullptr, histogram); });
-    speed.core =
-        std::max(0.0, drawing - kPixels * speed.tile - drawing_seconds(speed, plan.work, 3)) /
-        plan.core_pixels;
+    double plan_seconds = 0;
+
+  private:
+    static constexpr int kRadius = 32;
+    static constexpr float kLimit = 0.5F;
+    static SpriteOptions options() {
+        SpriteOptions options;
+        options.clusters.dim_limit = kLimit;
+        options.clusters.max_side = 16;
+        return options;
+    }
+
+    SpritePainter painter_;
+    Image light_;
+    Image out_;
+    sources::BrightnessHistogram histogram_;
+    DrawingSpeed sprite_;
+};
+
+void measure_painting(MachineSpeed& speed) {
+    PaintingTimer timer;
+    speed.pass = timer.seconds() / kPixels;
+    // A light in every tile; then two squares.
+    for (int y = SpriteTiles::kHeight / 2; y < kHeight; y += SpriteTiles::kHeight) {
+        for (int x = SpriteTiles::kWidth / 2; x < kWidth; x += SpriteTiles::kWidth) {
+            timer.add_square(x, y, 1);
+        }
+    }
+    const double lit = timer.seconds();
+    speed.lit = std::max(0.0, lit / kPixels - speed.pass);
+    speed.search = timer.plan_seconds / static_cast<double>(timer.plan.report.bright_pixels);
+    const double core_pixels = timer.plan.core_pixels;
+    constexpr int kSquare = 64;
+    timer.add_square(kWidth / 4, kHeight / 4, kSquare);
+    timer.add_square(kWidth / 2, kHeight / 2, kSquare);
+    speed.core = std::max(0.0, timer.seconds() - lit) / (timer.plan.core_pixels - core_pixels);
 }
 
 void measure_far(MachineSpeed& speed) {
-    constexpr int kScale = 4;
     FarKernel kernel;
-    kernel.scale = kScale;
+    kernel.scale = 4;
     kernel.coarse = wide_kernel(2);
     kernel.roughness.sum = 1;
     FarLayer far(kWidth, kHeight, 3, kernel);
     Image light(kWidth, kHeight, 3);
     fill(light, 0);
-    light.at(kWidth / 2, kHeight / 2, 0) = 1;
     sources::BrightnessHistogram histogram;
     histogram.measure(light, nullptr);
-    far.plan(light, nullptr, histogram, 0, 1, 0);
+    far.plan(light, nullptr, histogram, {}, 1, 0);
     std::vector<Buffer> scratch(static_cast<std::size_t>(max_workers()));
     for (Buffer& buffer : scratch) buffer = Buffer(3 * SpriteTiles::kPlane);
     const SpriteTiles tiles(kWidth, kHeight);
+    const auto add_to = [&](std::size_t i, int worker) {
+        far.add_to(tiles.cleared_tile(i, 3, scratch[static_cast<std::size_t>(worker)].data()));
+    };
     speed.far = least_seconds(kRounds,
                               [&] {
                                   far.draw();
-                                  parallel_for(tiles.size(), [&](std::size_t i, int worker) {
-                                      far.add_to(tiles.cleared_tile(
-                                          i, 3, scratch[static_cast<std::size_t>(worker)].data()));
-                                  });
+                                  parallel_for(tiles.size(), add_to);
                               }) /
                 kPixels;
 }
 
 MachineSpeed measured() {
     MachineSpeed speed;
-    measure_drawing(speed);
     measure_painting(speed);
     measure_far(speed);
     return speed;
@@ -195,17 +215,52 @@ const MachineSpeed& machine_speed() {
     return speeds.emplace(thread_count(), measured()).first->second;
 }
 
+DrawingSpeed drawing_speed(SpriteLayer& layer, int channels) {
+    constexpr int kSmallRadius = 8;
+    constexpr int kSmallSprites = 2000;
+    constexpr int kLeastSprites = 24;
+    constexpr double kPixelsDrawn = 1.5e7;
+    DrawingTimer timer(layer, channels);
+    const double area = typical_work(layer, layer.profile().end(), 0).pixels();
+    const int count =
+        std::clamp(static_cast<int>(kPixelsDrawn / area), kLeastSprites, kSmallSprites);
+    const auto full = timer.seconds(clusters_over(layer, count, 0, 1), 0);
+    const auto four = timer.seconds(clusters_over(layer, count, 0.25, 1), 0);
+    // Ends of sprites lie where energy * k = 1.
+    const double edge =
+        layer.profile().largest_from(std::min(kSmallRadius, layer.profile().end() - 1));
+    const auto small =
+        timer.seconds(clusters_over(layer, kSmallSprites, 0, edge > 0 ? 1 / edge : 1), 1);
+    // seconds = one_tap * pixels + row * rows, of large and small ones.
+    const double p0 = full.work.one_tap_pixels;
+    const double p1 = small.work.one_tap_pixels;
+    const double determinant = p0 * small.work.rows - p1 * full.work.rows;
+    DrawingSpeed speed;
+    if (determinant > 0) {
+        speed.row = std::max(0.0, (p0 * small.seconds - p1 * full.seconds) / determinant);
+    }
+    speed.row = std::min(speed.row, 0.9 * full.seconds / full.work.rows);
+    speed.one_tap = (full.seconds - speed.row * full.work.rows) / p0;
+    const double four_left = four.seconds - speed.row * four.work.rows;
+    speed.four_taps = std::max(four_left / four.work.four_tap_pixels, speed.one_tap);
+    return speed;
+}
+
+SpriteWork typical_work(const SpriteLayer& layer, double radius, double between_pixels) {
+    const double width = std::min(2 * radius, static_cast<double>(layer.width()));
+    const double height = std::min(2 * radius, static_cast<double>(layer.height()));
+    SpriteWork work;
+    const double area = std::min(kPi * radius * radius, width * height);
+    work.four_tap_pixels = between_pixels * area;
+    work.one_tap_pixels = area - work.four_tap_pixels;
+    work.rows = height * (1 + width / SpriteTiles::kWidth);
+    return work;
+}
+
 double transform_seconds(fourier::Convolver& convolver) {
     Image light(convolver.width(), convolver.height(), convolver.channels());
     fill(light, 1);
-    constexpr int kRuns = 2;
-    return least_seconds(kRuns, [&] { convolver.run(light, light); });
-}
-
-double drawing_seconds(const MachineSpeed& speed, const SpriteWork& work, int channels) {
-    const double share = channels / 3.0;
-    return share * (speed.one_tap * work.one_tap_pixels + speed.four_taps * work.four_tap_pixels +
-                    speed.row * work.rows);
+    return least_seconds(kRounds, [&] { convolver.run(light, light); });
 }
 
 }  // namespace aureole::glare

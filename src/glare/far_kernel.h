@@ -15,8 +15,8 @@ struct FarKernel {
     int scale = 4;        // fine pixels per coarse one
     int near_radius = 0;  // fine pixels
     Image near;           // (2 near_radius + 1) square
-    // far at displacements of whole coarse pixels: pixel (x, y) is `scale` (x - width / 2,
-    // y - height / 2) fine pixels from the source.
+    // What stands for far on the raster (raster.h): pixel (x, y) is `scale` (x - width / 2,
+    // y - height / 2) fine pixels from the source. scale^2 times its sum is the sum of far.
     Image coarse;
     // Of far, in fine pixels.
     sources::KernelRoughness roughness;
@@ -26,17 +26,11 @@ struct FarKernel {
     double error = 0;
 };
 
-// The cheapest split whose error is at most `most_error`; nothing if there is none, or the kernel
-// is too small for one to pay.
+// The split whose far part is the cheapest to draw, with an error of at most `most_error`; nothing
+// if there is none, or the kernel is too small for one to pay.
 std::optional<FarKernel> find_far_kernel(const ConstImageView& kernel, double most_error);
-
-// Weights of the nodes at and right of floor(t), t = (x + 0.5) / scale - 0.5, of linear
-// interpolation at fine pixel x of a raster whose node j is the middle of fine pixels
-// [scale j, scale (j + 1)).
-struct Between {
-    int node = 0;
-    float right = 0;  // weight of node + 1
-};
-Between coarse_place(int x, int scale);
+// With a given scale, for transforms: a near part of 256 pixels if that will do.
+std::optional<FarKernel> find_far_kernel(const ConstImageView& kernel, int scale,
+                                         double most_error);
 
 }  // namespace aureole::glare

@@ -1,36 +1,15 @@
 #include "glare/far_layer.h"
 
 #include <algorithm>
-#include <array>
 
 #include "aureole/base/parallel.h"
+#include "glare/raster.h"
 #include "glare/sprite_crop.h"
 
 namespace aureole::glare {
 namespace {
 
 constexpr int kClusterSide = 64;
-constexpr int kMargin = 1;  // nodes beyond the picture's edge, to interpolate from
-
-constexpr int kLargestScale = 8;
-
-// Adds `count` pixels from `x0` on, a multiple of the scale. nodes[j] is node j + x0 / kScale - 1.
-template <int kScale>
-void add_between(const float* nodes, int count, float* to) {
-    static_assert(kScale <= kLargestScale);
-    // Whole spans between nodes, which begin half a coarse pixel before the tile.
-    std::array<float, SpriteTiles::kWidth + 2 * kLargestScale> line;
-    const int spans = (count + kScale - 1) / kScale + 1;
-    for (int j = 0; j < spans; ++j) {
-        const float step = nodes[j + 1] - nodes[j];
-        for (int i = 0; i < kScale; ++i) {
-            constexpr float kPixel = 1.0F / kScale;
-            line[static_cast<std::size_t>(j * kScale + i)] =
-                nodes[j] + (static_cast<float>(i) + 0.5F) * kPixel * step;
-        }
-    }
-    for (int x = 0; x < count; ++x) to[x] += line[static_cast<std::size_t>(x + kScale / 2)];
-}
 
 }  // namespace
 
@@ -39,21 +18,21 @@ FarLayer::FarLayer(int width, int height, int channels, const FarKernel& kernel)
       scale_(kernel.scale),
       error_(kernel.error),
       roughness_(kernel.roughness),
-      layer_(width, height, channels, kernel.scale, kMargin, kernel.coarse, 1),
-      canvas_((width + kernel.scale - 1) / kernel.scale + 2 * kMargin,
-              (height + kernel.scale - 1) / kernel.scale + 2 * kMargin, channels),
+      layer_(width, height, channels, kernel.scale, kRasterMargin, kernel.coarse, 1),
+      canvas_(raster_size(width, kernel.scale), raster_size(height, kernel.scale), channels),
       scratch_(static_cast<std::size_t>(max_workers())) {
     for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
 }
 
 FarLayer::Plan FarLayer::plan(const ConstImageView& light, const float* weights,
-                              const sources::BrightnessHistogram& measured, float dim_limit,
+                              const sources::BrightnessHistogram& measured, const Limits& limits,
                               double cluster_error, double most_lost) {
     sources::ClusterOptions options;
     options.cells = false;
     options.max_side = kClusterSide;
     options.error = cluster_error;
-    options.dim_limit = dim_limit;
+    options.dim_limit = limits.dim;
+    options.full_limit = limits.full;
     const sources::Clusters found =
         sources::find_clusters(light, weights, roughness_, options, &measured);
     // Coarse pixels stand for scale^2 of the picture.
@@ -85,32 +64,10 @@ void FarLayer::draw() {
     });
 }
 
-void FarLayer::add_to(const SpriteTile& tile) const {
-    std::array<float, SpriteTiles::kWidth / 2 + 2 * kLargestScale> nodes;
-    const int first = tile.x / scale_ - 1 + kMargin;
-    const int count = std::min((tile.width + scale_ - 1) / scale_ + 2, canvas_.width() - first);
-    for (int y = 0; y < tile.height; ++y) {
-        const Between row = coarse_place(tile.y + y, scale_);
-        for (int c = 0; c < channels_; ++c) {
-            const float* above = canvas_.row(row.node + kMargin, c) + first;
-            const float* below = canvas_.row(row.node + kMargin + 1, c) + first;
-            for (int i = 0; i < count; ++i) {
-                nodes[static_cast<std::size_t>(i)] = above[i] + row.right * (below[i] - above[i]);
-            }
-            float* to = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
-            switch (scale_) {
-                case 2:
-                    add_between<2>(nodes.data(), tile.width, to);
-                    break;
-                case 4:
-                    add_between<4>(nodes.data(), tile.width, to);
-                    break;
-                default:
-                    add_between<8>(nodes.data(), tile.width, to);
-                    break;
-            }
-        }
-    }
+void FarLayer::add_to(const SpriteTile& tile) const { add_between(canvas_, scale_, tile); }
+
+void FarLayer::add_to(const ImageView& out, const float* weights) const noexcept {
+    add_between(canvas_, scale_, weights, out);
 }
 
 }  // namespace aureole::glare

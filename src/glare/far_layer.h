@@ -31,16 +31,25 @@ class FarLayer {
         double energy_cut = 0;
         SpriteWork work;
     };
-    // Finds the clusters of pixels above `dim_limit`, with an error of `cluster_error` of their
-    // energy, and ends their sprites where `most_lost` is lost in all.
+    // What is bright: ClusterOptions::dim_limit and full_limit.
+    struct Limits {
+        float dim = 0;
+        float full = 0;
+    };
+    // Finds the clusters of what is bright, with an error of `cluster_error` of their energy, and
+    // ends their sprites where `most_lost` is lost in all.
     Plan plan(const ConstImageView& light, const float* weights,
-              const sources::BrightnessHistogram& measured, float dim_limit, double cluster_error,
-              double most_lost);
+              const sources::BrightnessHistogram& measured, const Limits& limits,
+              double cluster_error, double most_lost);
+
+    SpriteLayer& layer() { return layer_; }
 
     // What was planned, on the raster.
     void draw();
     // And from the raster added to a tile of the picture.
     void add_to(const SpriteTile& tile) const;
+    // Or to all of it, over its weights (null: 1).
+    void add_to(const ImageView& out, const float* weights) const noexcept;
 
   private:
     int channels_;

@@ -11,8 +11,8 @@
 #include "aureole/base/parallel.h"
 #include "aureole/fourier/convolver.h"
 #include "aureole/sources/clusters.h"
-#include "aureole/sources/threshold.h"
-#include "glare/luminance_kernel.h"
+#include "glare/kernel_sums.h"
+#include "glare/light_rule.h"
 #include "glare/spreading.h"
 
 namespace aureole::glare {
@@ -22,15 +22,36 @@ void check(const View& view, int channels, const wave::Psf& psf, const GlareOpti
     if (channels != 1 && channels != 3) {
         throw InvalidArgument("channels", std::to_string(channels), "must be 3 (RGB) or 1 (grey)");
     }
-    if (psf.kernel.channels() != 3) {
+    if (psf.kernel.channels() != 3 && psf.kernel.channels() != 9) {
         throw InvalidArgument("channels of the PSF", std::to_string(psf.kernel.channels()),
-                              "must be 3");
+                              "must be 3, or 9 for a matrix");
+    }
+    if (psf.kernel.channels() == 9 && channels == 3) {
+        if (options.method != Method::kFft && options.method != Method::kDirect) {
+            throw InvalidArgument("method", std::string(name_of(options.method)),
+                                  "must be fft or direct: the PSF is a matrix");
+        }
+        if (options.resolution != Resolution::kFull) {
+            throw InvalidArgument("resolution", std::string(name_of(options.resolution)),
+                                  "must be full: the PSF is a matrix");
+        }
+        if (options.surround != Surround::kDark) {
+            throw InvalidArgument("surround", "same", "must be dark: the PSF is a matrix");
+        }
     }
     if (!(options.threshold >= 0)) {
         throw InvalidArgument("threshold", std::to_string(options.threshold), "must be >= 0");
     }
     if (!(options.gain >= 0)) {
         throw InvalidArgument("gain", std::to_string(options.gain), "must be >= 0");
+    }
+    if (!(options.exposure_scale > 0)) {
+        throw InvalidArgument("exposure scale", std::to_string(options.exposure_scale),
+                              "must be > 0");
+    }
+    if (options.added && options.surround != Surround::kDark) {
+        throw InvalidArgument("surround", "same",
+                              "must be dark where glare is added and borders lose nothing");
     }
     if (!(options.cluster_error > 0 && options.cluster_error < 1)) {
         throw InvalidArgument("cluster error", std::to_string(options.cluster_error),
@@ -41,6 +62,11 @@ void check(const View& view, int channels, const wave::Psf& psf, const GlareOpti
         throw InvalidArgument(
             "cluster side", std::to_string(options.cluster_side),
             "must be a power of two up to " + std::to_string(sources::kMaxClusterSide));
+    }
+    if (options.resolution != Resolution::kFull && options.method != Method::kFft) {
+        throw InvalidArgument("resolution", std::string(name_of(options.resolution)),
+                              "must be full with the method " +
+                                  std::string(name_of(options.method)) + ": others need fft");
     }
     if (psf.grid.projection != view.projection ||
         std::abs(psf.grid.pitch_deg / view.pitch_deg - 1) > 1e-3) {
@@ -78,12 +104,33 @@ std::string_view name_of(Method method) noexcept {
     return "auto";
 }
 
+Resolution resolution_from_name(std::string_view name) {
+    if (name == "full") return Resolution::kFull;
+    if (name == "half") return Resolution::kHalf;
+    if (name == "quarter") return Resolution::kQuarter;
+    throw InvalidArgument("resolution", std::string(name), "must be full, half or quarter");
+}
+
+std::string_view name_of(Resolution resolution) noexcept {
+    switch (resolution) {
+        case Resolution::kFull:
+            return "full";
+        case Resolution::kHalf:
+            return "half";
+        case Resolution::kQuarter:
+            break;
+    }
+    return "quarter";
+}
+
 std::string_view name_of(MethodReport::Reason reason) noexcept {
     switch (reason) {
         case MethodReport::Reason::kAsked:
             return "asked";
         case MethodReport::Reason::kNoGain:
             return "no-gain";
+        case MethodReport::Reason::kBlocks:
+            return "blocks";
         case MethodReport::Reason::kSample:
             return "sample";
         case MethodReport::Reason::kHistogram:
@@ -102,12 +149,11 @@ Surround surround_from_name(std::string_view name) {
 
 struct Glare::Impl {
     Impl(const View& v, int c, const wave::Psf& psf, const GlareOptions& o)
-        : view(v), channels(c), options(o) {
+        : view(v), channels(c), options(o), rule(o) {
         Image grey;
         if (channels == 1) grey = luminance_kernel(psf.kernel);
         const Image& kernel = channels == 1 ? grey : psf.kernel;
         spreading.emplace(view.width, view.height, channels, kernel, options);
-        share = share_inside(view.width, view.height, kernel);
         if (view.projection == Projection::kPerspective) weights = relative_solid_angles(view);
         if (selective()) light = Image(view.width, view.height, channels);
         // For those that cannot work in place.
@@ -119,7 +165,7 @@ struct Glare::Impl {
 
     // The result is something else than in * PSF.
     bool selective() const {
-        return options.threshold > 0 || options.gain != 1 || options.matte ||
+        return !rule.everything() || options.gain != 1 || options.added ||
                options.surround != Surround::kDark;
     }
 
@@ -127,9 +173,13 @@ struct Glare::Impl {
     void measure_surround(const Image& kernel) {
         for_each_row([&](int y, int c) { std::fill_n(light.row(y, c), view.width, 1.0F); });
         surround = Image(view.width, view.height, channels);
-        // Exactly, whatever the method for pictures is.
-        fourier::Convolver(view.width, view.height, channels, kernel)
-            .run(light, surround, weight_plane());
+        // Without the errors of methods that depend on the light, whatever the one for pictures is.
+        if (options.method == Method::kFft) {
+            spreading->run(light, surround, weight_plane());
+        } else {
+            fourier::Convolver(view.width, view.height, channels, kernel)
+                .run(light, surround, weight_plane());
+        }
         for_each_row([&](int y, int c) {
             float* row = surround.row(y, c);
             for (int x = 0; x < view.width; ++x) row[x] = 1.0F - row[x];
@@ -138,11 +188,6 @@ struct Glare::Impl {
 
     float from_surround(int x, int y, int c) const {
         return surround.empty() ? 0.0F : surround.at(x, y, c);
-    }
-
-    float light_of(float value, const float* matte, std::size_t pixel) const {
-        const float above = sources::ramp(value, options.threshold);
-        return matte == nullptr ? above : above * matte[pixel];
     }
 
     const float* weight_plane() const { return weights.empty() ? nullptr : weights.plane(0); }
@@ -171,18 +216,16 @@ struct Glare::Impl {
             convolve(in, out);
             return;
         }
-        for_each_row([&](int y, int c) {
-            const std::size_t first = row_start(y);
-            float* to = light.row(y, c);
-            for (int x = 0; x < view.width; ++x) {
-                to[x] = light_of(in.at(x, y, c), matte, first + static_cast<std::size_t>(x));
-            }
+        parallel_for(static_cast<std::size_t>(view.height), [&](std::size_t row, int) {
+            const int y = static_cast<int>(row);
+            rule.row(in, y, matte, light, y);
         });
         convolve(light, spread);
         for_each_row([&](int y, int c) {
             for (int x = 0; x < view.width; ++x) {
-                const float change =
-                    spread.at(x, y, c) + (from_surround(x, y, c) - 1.0F) * light.at(x, y, c);
+                const float taken =
+                    options.added ? 0.0F : (1.0F - from_surround(x, y, c)) * light.at(x, y, c);
+                const float change = spread.at(x, y, c) - taken;
                 out.at(x, y, c) = in.at(x, y, c) + options.gain * change;
             }
         });
@@ -199,16 +242,18 @@ struct Glare::Impl {
         parallel_for(rows.size(), [&](std::size_t row, int) {
             const int y = static_cast<int>(row);
             Energy& sum = rows[row];
+            Image source(view.width, 1, channels);
+            rule.row(in, y, matte, source, 0);
             for (int c = 0; c < channels; ++c) {
                 for (int x = 0; x < view.width; ++x) {
                     const std::size_t pixel = row_start(y) + static_cast<std::size_t>(x);
                     const double weight = perspective ? weights.plane(0)[pixel] / (f * f) : 1.0;
-                    const float value = in.at(x, y, c);
-                    sum.in += weight * value;
+                    sum.in += weight * in.at(x, y, c);
                     sum.out += weight * out.at(x, y, c);
-                    const double spreading_light =
-                        weight * options.gain * light_of(value, matte, pixel);
-                    sum.off_picture += spreading_light * (1.0 - share.at(x, y, c));
+                    const double spreading_light = weight * options.gain * source.at(x, 0, c);
+                    if (options.added) sum.added += spreading_light;
+                    sum.off_picture +=
+                        spreading_light * (1.0 - spreading->share_inside().at(x, y, c));
                     // What was cut off, as its bound.
                     sum.off_picture += std::abs(spreading_light) * spreading->last().energy_cut;
                     sum.from_surround += spreading_light * from_surround(x, y, c);
@@ -221,6 +266,7 @@ struct Glare::Impl {
             total.out += row.out;
             total.off_picture += row.off_picture;
             total.from_surround += row.from_surround;
+            total.added += row.added;
         }
         return total;
     }
@@ -228,8 +274,8 @@ struct Glare::Impl {
     View view;
     int channels;
     GlareOptions options;
+    LightRule rule;
     std::optional<Spreading> spreading;
-    Image share;     // inside the picture, per source pixel and kernel channel
     Image weights;   // relative solid angles, perspective only
     Image light;     // what makes glare, if not everything does
     Image spread;    // and what becomes of it

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -129,6 +130,80 @@ TEST(Glare, AccountsForEveryBitOfEnergy) {
         EXPECT_NEAR((energy.out + energy.off_picture) / energy.in, 1, 1e-5);
         EXPECT_GT(energy.off_picture, 0.01 * energy.in);
     }
+}
+
+// Eq. 3.2 of the thesis: a pixel of .89 makes none, one of .91 makes (.91 - .9) 10000 = 100, per
+// channel; and the glare is added.
+TEST(Glare, AddsTheLightAboveATonesThreshold) {
+    const View view = small_view(Projection::kConstantPitch);
+    const wave::Psf psf = uneven_psf(view, 5, 0.8);
+    GlareOptions options;
+    options.threshold = 0.9F;
+    options.gain = 10000;
+    options.source_curve = color::ToneCurve::kNone;
+    options.exposure_scale = 2;
+    options.added = true;
+    Image in(view.width, view.height, 3);
+    in.at(20, 15, 0) = 0.91F / 2;
+    in.at(20, 15, 1) = 0.89F / 2;
+    in.at(20, 15, 2) = 50;  // no more than white
+    Image out(view.width, view.height, 3);
+    Glare glare(view, 3, psf, options);
+    glare.apply(in, out);
+    const std::array light = {100.0, 0.0, 1000.0};
+    for (int c = 0; c < 3; ++c) {
+        for (int y = -2; y <= 2; ++y) {
+            for (int x = -2; x <= 2; ++x) {
+                const double expected =
+                    in.at(20 + x, 15 + y, c) +
+                    light[static_cast<std::size_t>(c)] / 2 * psf.kernel.at(2 + x, 2 + y, c);
+                ASSERT_NEAR(out.at(20 + x, 15 + y, c), expected, 2e-3) << c;
+            }
+        }
+    }
+    const Energy energy = glare.energy(in, out);
+    EXPECT_NEAR(energy.added, (100 + 1000) / 2.0, 0.01);
+    EXPECT_NEAR(energy.off_picture, 0.2 * energy.added, 0.01);
+    EXPECT_NEAR(energy.in + energy.added, energy.out + energy.off_picture, 0.02);
+}
+
+TEST(Glare, ACurveKnowsAllChannelsAndTheMatte) {
+    const View view = small_view();
+    const wave::Psf psf = uneven_psf(view, 9);
+    GlareOptions options;
+    options.threshold = 0.9F;
+    options.source_curve = color::ToneCurve::kHill;
+    options.added = true;
+    options.matte = true;
+    const Image in = noise(view);
+    const std::vector<float> none(in.pixels(), 0.0F);
+    Image out(view.width, view.height, 3);
+    Glare(view, 3, psf, options).apply(in, out, none.data());
+    expect_near(out, in, 0);
+    // A grey picture makes the glare of its colour.
+    GlareOptions bright = options;
+    bright.matte = false;
+    Image rgb(view.width, view.height, 3);
+    for (int c = 0; c < 3; ++c) rgb.at(20, 15, c) = 30;
+    Image grey(view.width, view.height, 1);
+    grey.at(20, 15, 0) = 30;
+    Image grey_out(view.width, view.height, 1);
+    Glare(view, 3, psf, bright).apply(rgb, out);
+    Glare(view, 1, psf, bright).apply(grey, grey_out);
+    const double luminance =
+        0.2126 * out.at(22, 15, 0) + 0.7152 * out.at(22, 15, 1) + 0.0722 * out.at(22, 15, 2);
+    EXPECT_NEAR(grey_out.at(22, 15, 0), luminance, 1e-5);
+}
+
+TEST(Glare, RefusesASurroundWhereNothingIsTakenAway) {
+    const View view = small_view();
+    GlareOptions options;
+    options.added = true;
+    options.surround = Surround::kSame;
+    EXPECT_THROW(Glare(view, 3, uneven_psf(view, 5), options), InvalidArgument);
+    options.surround = Surround::kDark;
+    options.exposure_scale = 0;
+    EXPECT_THROW(Glare(view, 3, uneven_psf(view, 5), options), InvalidArgument);
 }
 
 TEST(Glare, LeavesWhatIsBelowTheThreshold) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "aureole/base/parallel.h"
 #include "glare/sprite_painter.h"
+#include "glare/two_scale_convolver.h"
 
 namespace aureole::glare {
 namespace {
@@ -17,12 +17,6 @@ constexpr double kShareOfClusters = 1 - kShareOfFarRaster - kShareOfDimLight - k
 
 double padded_pixels(const fourier::Convolver& convolver) {
     return static_cast<double>(convolver.padded_width()) * convolver.padded_height();
-}
-
-// What a kernel of this reach needs, before sizes are rounded.
-double needed_pixels(int width, int height, const ConstImageView& kernel) {
-    return (width + static_cast<double>(std::min(kernel.width / 2, width - 1))) *
-           (height + static_cast<double>(std::min(kernel.height / 2, height - 1)));
 }
 
 }  // namespace
@@ -46,7 +40,7 @@ ConstImageView cropped(const ConstImageView& kernel, int radius) {
 
 Hybrid::Hybrid(int width, int height, int channels, const ConstImageView& kernel, double error,
                const FarKernel* split)
-    : error_(error), tiles_(width, height), channels_(channels) {
+    : error_(error) {
     const Crop crop = crop_of(kernel, error);
     ConstImageView near = cropped(kernel, crop.radius);
     // Even sizes have no middle that a crop could keep.
@@ -55,8 +49,6 @@ Hybrid::Hybrid(int width, int height, int channels, const ConstImageView& kernel
         needed_pixels(width, height, split->near) < needed_pixels(width, height, near)) {
         near = split->near;
         far_.emplace(width, height, channels, *split);
-        scratch_.resize(static_cast<std::size_t>(max_workers()));
-        for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
     } else if (near.width < kernel.width || near.height < kernel.height) {
         lost_ = crop.lost;
     }
@@ -71,8 +63,12 @@ Hybrid::Hybrid(int width, int height, int channels, const ConstImageView& kernel
     }
 }
 
+double Hybrid::dim_share() const {
+    return std::min(1.0, kShareOfDimLight * error_ / far_->share());
+}
+
 float Hybrid::dim_limit(const sources::BrightnessHistogram& histogram) const {
-    return histogram.dim_limit(std::min(1.0, kShareOfDimLight * error_ / far_->share()));
+    return histogram.dim_limit(dim_share());
 }
 
 Hybrid::Plan Hybrid::plan(const ConstImageView& light, const float* weights,
@@ -80,8 +76,8 @@ Hybrid::Plan Hybrid::plan(const ConstImageView& light, const float* weights,
     Plan plan;
     plan.energy = histogram.energy();
     const FarLayer::Plan distant =
-        far_->plan(light, weights, histogram, dim_limit(histogram), kShareOfClusters * error_,
-                   kShareOfCrop * error_ * plan.energy);
+        far_->plan(light, weights, histogram, {.dim = dim_limit(histogram)},
+                   kShareOfClusters * error_, kShareOfCrop * error_ * plan.energy);
     const double left_out = far_->share() * distant.energy_left;
     plan.sprites = distant.sprites;
     plan.energy_cut = distant.energy_cut + left_out;
@@ -94,35 +90,9 @@ Hybrid::Plan Hybrid::plan(const ConstImageView& light, const float* weights,
 void Hybrid::draw(const ConstImageView& light, const ImageView& out,
                   const float* weights) noexcept {
     convolver_->run(light, out, weights);
-    if (far_ && planned_ > 0) add_far(out, weights);
-}
-
-void Hybrid::add_far(const ImageView& out, const float* weights) noexcept {
+    if (!far_ || planned_ == 0) return;
     far_->draw();
-    parallel_for(tiles_.size(), [&](std::size_t i, int worker) {
-        const SpriteTile tile =
-            tiles_.cleared_tile(i, channels_, scratch_[static_cast<std::size_t>(worker)].data());
-        far_->add_to(tile);
-        for (int y = 0; y < tile.height; ++y) {
-            const float* weight =
-                weights == nullptr
-                    ? nullptr
-                    : weights + static_cast<std::ptrdiff_t>(tile.y + y) * out.width + tile.x;
-            for (int c = 0; c < channels_; ++c) {
-                float* row = tile.planes[static_cast<std::size_t>(c)] + y * tile.stride;
-                float* to = &out.at(tile.x, tile.y + y, c);
-                if (weight != nullptr) {
-                    for (int x = 0; x < tile.width; ++x) row[x] /= weight[x];
-                }
-                // A stride of 1 that the compiler knows of becomes vectors.
-                if (out.pixel_stride == 1) {
-                    for (int x = 0; x < tile.width; ++x) to[x] += row[x];
-                } else {
-                    for (int x = 0; x < tile.width; ++x) to[x * out.pixel_stride] += row[x];
-                }
-            }
-        }
-    });
+    far_->add_to(out, weights);
 }
 
 }  // namespace aureole::glare

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "aureole/fourier/convolver.h"
 #include "aureole/sources/brightness_histogram.h"
@@ -33,6 +32,8 @@ class Hybrid {
     Hybrid(int width, int height, int channels, const ConstImageView& kernel, double error,
            const FarKernel* split);
 
+    // Of the energy, what may go without its far part: for BrightnessHistogram::count().
+    double dim_share() const;
     // Pixels above it get their far part.
     float dim_limit(const sources::BrightnessHistogram& histogram) const;
 
@@ -53,20 +54,16 @@ class Hybrid {
     fourier::Convolver& convolver() { return *convolver_; }
     // Whether there is something to plan: else the result has the same cost for all pictures.
     bool has_far() const { return far_.has_value(); }
+    FarLayer* far() { return far_ ? &*far_ : nullptr; }
     // Of the kernel's sum of |k|, what is cut off without a far layer.
     double lost() const { return lost_; }
 
   private:
-    void add_far(const ImageView& out, const float* weights) noexcept;
-
     double error_;
     double lost_ = 0;
-    SpriteTiles tiles_;
-    int channels_;
     std::optional<FarLayer> far_;
     std::optional<fourier::Convolver> convolver_;
     std::size_t planned_ = 0;  // sprites
-    std::vector<Buffer> scratch_;
 };
 
 }  // namespace aureole::glare

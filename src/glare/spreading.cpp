@@ -1,38 +1,34 @@
 #include "glare/spreading.h"
 
 #include <algorithm>
-#include <utility>
 
+#include "glare/cost_model.h"
 #include "glare/far_kernel.h"
+#include "glare/kernel_sums.h"
 
 namespace aureole::glare {
 namespace {
 
-using Reason = MethodReport::Reason;
-
-// Looking at a whole picture is worth this share of what the fastest sure method costs; else some
-// rows decide whether there is hope.
-constexpr double kCheapLook = 0.06;
-constexpr int kRowStep = 16;
-// By how much what some rows show must be above the sure cost: they are a sample.
-constexpr double kSureOfSample = 1.5;
-
-MethodReport::Candidate& candidate(MethodReport& report, Method method) {
-    return *std::find_if(report.candidates.begin(), report.candidates.end(),
-                         [method](const auto& c) { return c.method == method; });
-}
+int raster_scale(Resolution resolution) { return resolution == Resolution::kHalf ? 2 : 4; }
 
 }  // namespace
 
 Spreading::Spreading(int width, int height, int channels, const Image& kernel,
                      const GlareOptions& options)
-    : pixels_(static_cast<double>(width) * height),
-      channel_share_(channels / 3.0),
-      width_(width),
-      height_(height),
-      asked_(options.method) {
+    : width_(width), height_(height), asked_(options.method) {
     if (asked_ == Method::kDirect) direct_kernel_ = kernel;
     const bool automatic = asked_ == Method::kAuto;
+    if (options.resolution != Resolution::kFull) {
+        if (const auto split =
+                split_for_transforms(width, height, kernel, raster_scale(options.resolution))) {
+            two_scale_.emplace(width, height, channels, *split);
+            share_inside_ = glare::share_inside(width, height, *split);
+            report_.raster = {split->scale, split->near_radius, split->error};
+            return;
+        }
+    }
+    share_inside_ =
+        glare::share_inside(width, height, channels == 3 ? kernel_of_primaries(kernel) : kernel);
     if (asked_ == Method::kFft || automatic) convolver_.emplace(width, height, channels, kernel);
     if (asked_ == Method::kDirect || asked_ == Method::kFft) return;
     const std::optional<FarKernel> split =
@@ -47,24 +43,18 @@ Spreading::Spreading(int width, int height, int channels, const Image& kernel,
     if (asked_ == Method::kHybrid || automatic) {
         hybrid_.emplace(width, height, channels, kernel, options.cluster_error, far);
     }
-    if (automatic) {
-        speed_ = machine_speed();
-        fft_seconds_ = transform_seconds(*convolver_);
-        hybrid_fft_seconds_ = transform_seconds(hybrid_->convolver());
-    }
+    if (automatic) choice_.emplace(*convolver_, *painter_, *hybrid_, histogram_);
 }
 
 int Spreading::padded_width() const {
+    if (two_scale_) return two_scale_->padded_width();
     if (convolver_) return convolver_->padded_width();
     return hybrid_ ? hybrid_->convolver().padded_width() : width_;
 }
 int Spreading::padded_height() const {
+    if (two_scale_) return two_scale_->padded_height();
     if (convolver_) return convolver_->padded_height();
     return hybrid_ ? hybrid_->convolver().padded_height() : height_;
-}
-
-void Spreading::predict(Method method, double seconds) {
-    candidate(report_, method).predicted_seconds = seconds;
 }
 
 void Spreading::report_plan(double energy, double error_bound, double energy_cut,
@@ -74,139 +64,62 @@ void Spreading::report_plan(double energy, double error_bound, double energy_cut
     report_.sprites = sprites;
 }
 
-double Spreading::plan_sprites(const ConstImageView& light, const float* weights) {
-    sprites_plan_ = painter_->plan(light, weights, histogram_);
-    const double passes = pixels_ * (speed_.tile + (painter_->has_far() ? speed_.far : 0));
-    return channel_share_ * (passes + speed_.core * sprites_plan_.core_pixels) +
-           drawing_seconds(speed_, sprites_plan_.work, light.channels);
+void Spreading::run_sprites(const ConstImageView& in, const ImageView& out, const float* weights,
+                            const SpritePainter::Plan& plan) {
+    const SpriteReport& report = plan.report;
+    report_plan(report.energy, report.error_bound, report.energy_cut,
+                report.sprites + report.far_sprites);
+    painter_->draw(in, out, weights, histogram_);
 }
 
-double Spreading::plan_hybrid(const ConstImageView& light, const float* weights) {
-    hybrid_plan_ = hybrid_->plan(light, weights, histogram_);
-    const double passes = hybrid_plan_.sprites > 0 ? pixels_ * speed_.far : 0;
-    return hybrid_fft_seconds_ + channel_share_ * passes +
-           drawing_seconds(speed_, hybrid_plan_.work, light.channels);
-}
-
-Spreading::Bright Spreading::bright_above(float limit) const {
-    Bright bright;
-    bright.pixels = histogram_.pixels_above(limit);
-    constexpr double kBlock = sources::BrightnessHistogram::kBlockSide;
-    bright.blocks = std::max(histogram_.blocks_above(limit), bright.pixels / (kBlock * kBlock));
-    return bright;
-}
-
-double Spreading::least_sprites_seconds(const Bright& bright) const {
-    const bool far = painter_->has_far();
-    const double passes = pixels_ * (speed_.tile + (far ? speed_.far : 0));
-    const double side = 2 * painter_->core_radius() + 1;
-    // One sprite for each block with light: a guess, and a low one but for a few bright among many
-    // dim ones.
-    const double sprites = bright.blocks * painter_->typical_area() * speed_.one_tap;
-    return channel_share_ * (passes + sprites + bright.blocks * speed_.search * (far ? 2 : 1) +
-                             bright.pixels * speed_.core * side * side);
-}
-
-double Spreading::least_hybrid_seconds(const Bright& bright) const {
-    return hybrid_fft_seconds_ +
-           channel_share_ * (pixels_ * speed_.far + bright.blocks * speed_.search);
-}
-
-bool Spreading::hopeless(double seconds) const {
-    if (least_sprites_seconds(bright_above(painter_->dim_limit(histogram_))) < seconds) {
-        return false;
+void Spreading::run_hybrid(const ConstImageView& in, const ImageView& out, const float* weights,
+                           const Hybrid::Plan& plan) {
+    if (hybrid_->has_far()) {
+        report_plan(plan.energy, plan.error_bound, plan.energy_cut, plan.sprites);
+    } else {
+        report_plan(1, hybrid_->lost(), hybrid_->lost(), 0);
     }
-    return !hybrid_->has_far() ||
-           least_hybrid_seconds(bright_above(hybrid_->dim_limit(histogram_))) >= seconds;
-}
-
-Method Spreading::choose(const ConstImageView& light, const float* weights) {
-    const double start = clock_seconds();
-    for (auto& c : report_.candidates) c.predicted_seconds = 0;
-    double best = fft_seconds_;
-    Method method = Method::kFft;
-    predict(method, best);
-    if (!hybrid_->has_far()) {
-        const double seconds = hybrid_fft_seconds_;
-        predict(Method::kHybrid, seconds);
-        if (seconds < best) {
-            best = seconds;
-            method = Method::kHybrid;
-        }
-    }
-    const double look = channel_share_ * speed_.histogram * pixels_;
-    report_.reason = Reason::kNoGain;
-    if (least_sprites_seconds({}) >= best - look &&
-        (!hybrid_->has_far() || least_hybrid_seconds({}) >= best - look)) {
-        return method;
-    }
-    report_.reason = Reason::kSample;
-    if (look > kCheapLook * best) {
-        histogram_.measure(light, weights, kRowStep);
-        if (hopeless(kSureOfSample * best)) return method;
-    }
-    report_.reason = Reason::kHistogram;
-    histogram_.measure(light, weights);
-    if (hopeless(best)) return method;
-    report_.reason = Reason::kPredicted;
-    // Once planned, planning is spent: what is left to do decides.
-    if (hybrid_->has_far() &&
-        least_hybrid_seconds(bright_above(hybrid_->dim_limit(histogram_))) < best) {
-        const double seconds = plan_hybrid(light, weights);
-        predict(Method::kHybrid, clock_seconds() - start + seconds);
-        if (seconds < best) {
-            best = seconds;
-            method = Method::kHybrid;
-        }
-    }
-    const double before_sprites = clock_seconds();
-    if (least_sprites_seconds(bright_above(painter_->dim_limit(histogram_))) < best) {
-        const double seconds = plan_sprites(light, weights);
-        predict(Method::kSprites, look + clock_seconds() - before_sprites + seconds);
-        if (seconds < best) {
-            best = seconds;
-            method = Method::kSprites;
-        }
-    }
-    return method;
+    hybrid_->draw(in, out, weights);
 }
 
 void Spreading::run(const ConstImageView& in, const ImageView& out, const float* weights) noexcept {
     const double start = clock_seconds();
-    if (asked_ == Method::kDirect) {
-        fourier::convolve_directly(in, direct_kernel_, out, weights);
-        report_.method = asked_;
-        return;
-    }
-    const bool automatic = asked_ == Method::kAuto;
-    report_.method = automatic ? choose(in, weights) : asked_;
-    const bool planned = automatic && report_.reason == Reason::kPredicted;
+    report_.method = asked_;
     report_plan(0, 0, 0, 0);
-    if (report_.method == Method::kFft) {
-        convolver_->run(in, out, weights);
-    } else if (report_.method == Method::kSprites) {
-        if (!planned) {
-            histogram_.measure(in, weights);
-            plan_sprites(in, weights);
+    if (choice_) choice_->choose(in, weights, report_);
+    const double chosen = clock_seconds();
+    switch (report_.method) {
+        case Method::kDirect:
+            fourier::convolve_directly(in, direct_kernel_, out, weights);
+            return;
+        case Method::kSprites:
+            if (!choice_) histogram_.measure(in, weights, painter_->dim_share());
+            run_sprites(
+                in, out, weights,
+                choice_ ? choice_->sprites_plan() : painter_->plan(in, weights, histogram_));
+            break;
+        case Method::kHybrid: {
+            const bool plan = !choice_ && hybrid_->has_far();
+            if (plan) histogram_.measure(in, weights, hybrid_->dim_share());
+            run_hybrid(in, out, weights,
+                       plan      ? hybrid_->plan(in, weights, histogram_)
+                       : choice_ ? choice_->hybrid_plan()
+                                 : Hybrid::Plan{});
+            break;
         }
-        const SpriteReport& plan = sprites_plan_.report;
-        report_plan(plan.energy, plan.error_bound, plan.energy_cut,
-                    plan.sprites + plan.far_sprites);
-        painter_->draw(in, out, weights, histogram_);
-    } else {
-        if (!hybrid_->has_far()) {
-            report_plan(1, hybrid_->lost(), hybrid_->lost(), 0);
-        } else {
-            if (!planned) {
-                histogram_.measure(in, weights);
-                plan_hybrid(in, weights);
+        default:
+            if (two_scale_) {
+                report_plan(1, report_.raster.error, 0, 0);
+                two_scale_->run(in, out, weights);
+            } else {
+                convolver_->run(in, out, weights);
             }
-            report_plan(hybrid_plan_.energy, hybrid_plan_.error_bound, hybrid_plan_.energy_cut,
-                        hybrid_plan_.sprites);
-        }
-        hybrid_->draw(in, out, weights);
     }
-    candidate(report_, report_.method).actual_seconds = clock_seconds() - start;
+    const double end = clock_seconds();
+    if (choice_) choice_->observe(end - chosen);
+    std::find_if(report_.candidates.begin(), report_.candidates.end(), [this](const auto& c) {
+        return c.method == report_.method;
+    })->actual_seconds = end - start;
 }
 
 }  // namespace aureole::glare

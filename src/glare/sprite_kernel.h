@@ -41,6 +41,8 @@ class KernelProfile {
     int end() const { return static_cast<int>(largest_.size()); }
     // Sum of |k| at a distance of `radius` or more, the largest of all channels.
     double beyond(int radius) const;
+    // The largest |k| from a radius below end() on.
+    double largest_from(int radius) const { return largest_[static_cast<std::size_t>(radius)]; }
     // The least radius from which on no |k| exceeds `value`.
     int radius_below(double value) const;
     // The least radius with at most `sum` beyond it.

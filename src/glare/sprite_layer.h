@@ -30,6 +30,8 @@ class SpriteLayer {
 
     const KernelProfile& profile() const { return profile_; }
     const SpriteTiles& tiles() const { return tiles_; }
+    int width() const { return width_; }  // of the raster
+    int height() const { return height_; }
     int margin() const { return margin_; }
     int scale() const { return scale_; }
 

@@ -14,7 +14,7 @@ namespace {
 
 using Criterion = sources::ClusterOptions::Criterion;
 
-constexpr int kCoreRadius = 8;
+constexpr int kCoreRadius = 12;
 constexpr int kLargestCellKernel = 1025;
 constexpr ErrorShares kShares;
 
@@ -57,14 +57,38 @@ SpritePainter::SpritePainter(int width, int height, int channels, const ConstIma
     for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
 }
 
+double SpritePainter::dim_share() const { return kShares.dim_light * options_.error; }
+
+// All that is left below the limit of the histogram is within the share of the error: so is then a
+// part of it, which falls to nothing from half of that limit up to it.
 float SpritePainter::dim_limit(const sources::BrightnessHistogram& histogram) const {
     if (options_.clusters.dim_limit > 0) return options_.clusters.dim_limit;
-    return histogram.dim_limit(kShares.dim_light * options_.error);
+    const float limit = histogram.dim_limit(dim_share());
+    return options_.clusters.criterion == Criterion::kBoundedError ? limit / 2 : limit;
+}
+
+bool SpritePainter::light_near(const SpriteTile& tile, const sources::BrightnessHistogram& measured,
+                               float limit) const {
+    const int reach = core_radius_;
+    return measured.may_be_above(limit, tile.x - reach, tile.y - reach, tile.x + tile.width + reach,
+                                 tile.y + tile.height + reach);
+}
+
+double SpritePainter::lit_pixels(const sources::BrightnessHistogram& measured, float limit) const {
+    double pixels = 0;
+    for (std::size_t i = 0; i < near_->tiles().size(); ++i) {
+        const SpriteTile tile = near_->tiles().tile(i);
+        if (light_near(tile, measured, limit)) {
+            pixels += static_cast<double>(tile.width) * tile.height;
+        }
+    }
+    return pixels;
 }
 
 SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float* weights,
                                         const sources::BrightnessHistogram& measured) {
     dim_limit_ = dim_limit(measured);
+    full_limit_ = options_.clusters.dim_limit > 0 ? dim_limit_ : measured.dim_limit(dim_share());
     // Of the shares of clusters and of ends each layer has half if there are two; the far one pays
     // for its raster with its own.
     const double layers = far_ ? 2 : 1;
@@ -72,6 +96,7 @@ SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float
     sources::ClusterOptions cluster_options = options_.clusters;
     cluster_options.error = clusters_share;
     cluster_options.dim_limit = dim_limit_;
+    cluster_options.full_limit = full_limit_;
     const sources::Clusters found =
         sources::find_clusters(light, weights, roughness_, cluster_options, &measured);
     Plan plan;
@@ -85,18 +110,18 @@ SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float
         near_->make(found.clusters, crop_level(found.clusters, near_->profile(), most_lost));
     report.energy_cut = made.energy_cut;
     report.error_bound = found.error_bound + made.energy_cut + 2 * report.energy_left;
-    plan.work = made.work;
+    plan.near = made.work;
     if (far_) {
-        const FarLayer::Plan distant = far_->plan(light, weights, measured, dim_limit_,
-                                                  clusters_share - far_->error(), most_lost);
+        const FarLayer::Plan distant =
+            far_->plan(light, weights, measured, {dim_limit_, full_limit_},
+                       clusters_share - far_->error(), most_lost);
         report.far_sprites = distant.sprites;
         report.energy_cut += distant.energy_cut;
         report.error_bound += distant.error_bound;
-        plan.work.one_tap_pixels += distant.work.one_tap_pixels;
-        plan.work.four_tap_pixels += distant.work.four_tap_pixels;
-        plan.work.rows += distant.work.rows;
+        plan.far = distant.work;
     }
-    report.pixels_drawn = plan.work.pixels();
+    report.pixels_drawn = plan.near.pixels() + plan.far.pixels();
+    plan.lit_pixels = lit_pixels(measured, dim_limit_);
     const double side = 2 * core_radius_ + 1;
     plan.core_pixels = static_cast<double>(report.bright_pixels) * side * side;
     return plan;
@@ -115,10 +140,7 @@ void SpritePainter::draw_tile(const ConstImageView& light, const ImageView& out,
                               const float* weights, const sources::BrightnessHistogram& measured,
                               std::size_t index, float* planes) const {
     SpriteTile tile = near_->tiles().tile(index);
-    const int reach = core_radius_;
-    const bool bright =
-        measured.may_be_above(dim_limit_, tile.x - reach, tile.y - reach,
-                              tile.x + tile.width + reach, tile.y + tile.height + reach);
+    const bool bright = light_near(tile, measured, dim_limit_);
     // planes[0] stays null where nothing is drawn.
     if (bright || far_ || near_->tiles().count(index) > 0) {
         tile = near_->tiles().cleared_tile(index, channels_, planes);
@@ -133,9 +155,13 @@ void SpritePainter::draw_tile(const ConstImageView& light, const ImageView& out,
 void SpritePainter::finish_row(const ConstImageView& light, const ImageView& out,
                                const float* weights, const SpriteTile& tile, int y,
                                bool bright) const {
-    std::array<float, SpriteTiles::kWidth> largest;
+    std::array<float, SpriteTiles::kWidth> kept;  // what stays, of each pixel
     if (bright) {
-        sources::largest_channel_row(part(light, tile.x, tile.width), tile.y + y, largest.data());
+        sources::largest_channel_row(part(light, tile.x, tile.width), tile.y + y, kept.data());
+        for (int x = 0; x < tile.width; ++x) {
+            float& value = kept[static_cast<std::size_t>(x)];
+            value = 1 - sources::bright_share(value, dim_limit_, full_limit_);
+        }
     }
     for (int c = 0; c < (weights == nullptr ? 0 : channels_); ++c) {
         if (tile.planes[0] == nullptr) break;
@@ -158,10 +184,8 @@ void SpritePainter::finish_row(const ConstImageView& light, const ImageView& out
                 }
             } else {
                 for (int x = 0; x < tile.width; ++x) {
-                    const float dim = largest[static_cast<std::size_t>(x)] > dim_limit_
-                                          ? 0.0F
-                                          : from[x * in_stride];
-                    to[x * out_stride] = row[x] + dim;
+                    to[x * out_stride] =
+                        row[x] + kept[static_cast<std::size_t>(x)] * from[x * in_stride];
                 }
             }
         };
@@ -187,9 +211,11 @@ void SpritePainter::draw_cores(const ConstImageView& light, const float* weights
         sources::largest_channel_row(part(light, first_x, end_x - first_x), y, largest.data());
         if (!sources::any_above(largest.data(), end_x - first_x, dim_limit_)) continue;
         for (int x = first_x; x < end_x; ++x) {
-            if (!(largest[static_cast<std::size_t>(x - first_x)] > dim_limit_)) continue;
+            const float share = sources::bright_share(
+                largest[static_cast<std::size_t>(x - first_x)], dim_limit_, full_limit_);
+            if (share == 0) continue;
             const float weight = weights == nullptr ? 1.0F : weights[pixel(x, y)];
-            const Sprite sprite = core_sprite(light, x, y, weight);
+            const Sprite sprite = core_sprite(light, x, y, share * weight);
             draw_sprites(&sprite, &kFirst, 1, tile);
         }
     }

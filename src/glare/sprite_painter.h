@@ -29,13 +29,17 @@ class SpritePainter {
     SpritePainter(int width, int height, int channels, const ConstImageView& kernel,
                   const SpriteOptions& options, const FarKernel* split);
 
-    // Pixels that are too dim to be drawn.
+    // Of the energy, what may stay where it is: to be given to BrightnessHistogram::count().
+    double dim_share() const;
+    // Pixels up to here are not drawn at all.
     float dim_limit(const sources::BrightnessHistogram& histogram) const;
 
     struct Plan {
         SpriteReport report;
-        SpriteWork work;  // far sprites included
+        SpriteWork near;
+        SpriteWork far;
         double core_pixels = 0;
+        double lit_pixels = 0;
     };
     // `measured`: all of the light.
     Plan plan(const ConstImageView& light, const float* weights,
@@ -44,7 +48,12 @@ class SpritePainter {
     void draw(const ConstImageView& light, const ImageView& out, const float* weights,
               const sources::BrightnessHistogram& measured);
 
+    // Pixels of tiles with something above the limit in them, or so near that its core reaches in.
+    double lit_pixels(const sources::BrightnessHistogram& measured, float limit) const;
+
     bool has_far() const { return far_.has_value(); }
+    SpriteLayer& near() { return *near_; }
+    FarLayer* far() { return far_ ? &*far_ : nullptr; }
     int core_radius() const { return core_radius_; }
     // What a sprite of the near kernel covers if all have the same energy.
     double typical_area() const { return typical_area_; }
@@ -58,6 +67,8 @@ class SpritePainter {
                     const SpriteTile& tile, int y, bool bright) const;
     void draw_cores(const ConstImageView& light, const float* weights,
                     const SpriteTile& tile) const;
+    bool light_near(const SpriteTile& tile, const sources::BrightnessHistogram& measured,
+                    float limit) const;
     Sprite core_sprite(const ConstImageView& light, int x, int y, float weight) const;
     std::size_t pixel(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
@@ -75,7 +86,8 @@ class SpritePainter {
     std::optional<SpriteLayer> near_;
     std::optional<FarLayer> far_;
     double typical_area_ = 0;
-    float dim_limit_ = 0;
+    float dim_limit_ = 0;  // of the last plan
+    float full_limit_ = 0;
     std::vector<Buffer> scratch_;
 };
 

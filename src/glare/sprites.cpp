@@ -65,7 +65,7 @@ Sprites& Sprites::operator=(Sprites&&) noexcept = default;
 
 SpriteReport Sprites::apply(const ConstImageView& light, const ImageView& out,
                             const float* weights) {
-    impl_->histogram.measure(light, weights);
+    impl_->histogram.measure(light, weights, impl_->painter.dim_share());
     const SpriteReport report = impl_->painter.plan(light, weights, impl_->histogram).report;
     impl_->painter.draw(light, out, weights, impl_->histogram);
     return report;

@@ -10,7 +10,7 @@
 #include "aureole/base/parallel.h"
 #include "aureole/fourier/convolver.h"
 #include "aureole/fourier/varying_convolver.h"
-#include "glare/luminance_kernel.h"
+#include "glare/kernel_sums.h"
 
 namespace aureole::glare {
 namespace {
@@ -57,8 +57,10 @@ class KernelSums {
 // stays in the picture.
 void account(const fourier::KernelNodes& part, int channel, Image& taken, Image& inside) {
     std::vector<KernelSums> sums;
-    sums.reserve(part.kernels.size());
-    for (const Image& kernel : part.kernels) sums.emplace_back(kernel, channel);
+    sums.reserve(static_cast<std::size_t>(part.nodes()));
+    for (int n = 0; n < part.nodes(); ++n) {
+        sums.emplace_back(fourier::whole_kernel(part.half_of(n)), channel);
+    }
     const int width = taken.width();
     const int height = taken.height();
     parallel_for(static_cast<std::size_t>(height), [&](std::size_t row, int) {
@@ -102,7 +104,7 @@ std::vector<fourier::KernelNodes> parts_for(int channels, const wave::VaryingPsf
     std::vector<fourier::KernelNodes> parts = psf.parts;
     if (channels == 3) return parts;
     for (fourier::KernelNodes& part : parts) {
-        for (Image& kernel : part.kernels) kernel = luminance_kernel(kernel);
+        for (Image& half : part.halves) half = luminance_kernel(half);
     }
     return parts;
 }

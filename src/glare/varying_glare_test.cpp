@@ -43,12 +43,12 @@ wave::Psf base_psf(const View& view) {
 }
 
 wave::VaryingPsf varying_psf(const View& view) {
-    wave::VaryingPsf psf{base_psf(view), {{3, 2, {}}, {1, 4, {}}}, view};
+    wave::VaryingPsf psf{base_psf(view), {{3, 2, {}, {}}, {1, 4, {}, {}}}, view};
     for (std::uint64_t n = 0; n < 6; ++n) {
-        psf.parts[0].kernels.push_back(noise(7, 5, 3, n, 0.02));
+        psf.parts[0].halves.push_back(fourier::right_half(noise(7, 5, 3, n, 0.02)));
     }
     for (std::uint64_t n = 0; n < 4; ++n) {
-        psf.parts[1].kernels.push_back(noise(21, 21, 3, 20 + n, 4e-4));
+        psf.parts[1].halves.push_back(fourier::right_half(noise(21, 21, 3, 20 + n, 4e-4)));
     }
     return psf;
 }

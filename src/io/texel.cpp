@@ -8,6 +8,7 @@
 #include <string>
 
 #include "aureole/base/error.h"
+#include "aureole/base/small_float.h"
 #include "aureole/color/rgb.h"
 
 namespace aureole::io {
@@ -19,54 +20,12 @@ static_assert(std::endian::native == std::endian::little);
 // The small floats of GPUs (Vulkan 1.3 specification, 2.7.2 to 2.7.4) share an exponent of 5 bits
 // with bias 15 and differ in their mantissas: 10 bits in half precision, which also has a sign, 6
 // and 5 in R11G11B10.
-constexpr int kHalfMantissa = 10;
 constexpr std::array<int, 3> kPackedMantissa = {6, 6, 5};
 constexpr std::array<unsigned, 3> kPackedShift = {0, 11, 22};
-
-constexpr float largest_small_float(int mantissa_bits) {
-    return 32768.0F *
-           (2.0F - 1.0F / static_cast<float>(1U << static_cast<unsigned>(mantissa_bits)));
-}
-static_assert(largest_small_float(kHalfMantissa) == 65504.0F);
 
 // RGB9E5 (Vulkan 1.3 specification, 16.1.6): mantissas of 9 bits without a hidden one, value =
 // mantissa 2^(exponent - 24).
 constexpr float kLargestShared = 511.0F / 512.0F * 65536.0F;
-
-float power_of_two(int exponent) {
-    return std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 127) << 23U);
-}
-
-// Nearest small float, ties to even; `value` in [0, largest_small_float()].
-std::uint32_t encode_small_float(float value, int mantissa_bits) {
-    auto bits = std::bit_cast<std::uint32_t>(value);
-    if (value < 0x1p-14F) {  // subnormal: a multiple of 2^-(14 + mantissa_bits)
-        return static_cast<std::uint32_t>(std::lrint(value * power_of_two(14 + mantissa_bits)));
-    }
-    // A mantissa that rounds up beyond its bits carries into the exponent, as it should.
-    const auto dropped = static_cast<unsigned>(23 - mantissa_bits);
-    bits += (1U << (dropped - 1)) - 1U + ((bits >> dropped) & 1U);
-    return (bits >> dropped) - (112U << static_cast<unsigned>(mantissa_bits));
-}
-
-float decode_small_float(std::uint32_t code, int mantissa_bits) {
-    const auto m = static_cast<unsigned>(mantissa_bits);
-    const std::uint32_t exponent = code >> m;
-    const std::uint32_t mantissa = code & ((1U << m) - 1U);
-    if (exponent == 0) return static_cast<float>(mantissa) * power_of_two(-14 - mantissa_bits);
-    const std::uint32_t widened = exponent == 31 ? 255 : exponent + 112;
-    return std::bit_cast<float>(widened << 23U | mantissa << (23U - m));
-}
-
-std::uint16_t encode_half(float value) {
-    const std::uint32_t sign = std::signbit(value) ? 0x8000U : 0U;
-    return static_cast<std::uint16_t>(sign | encode_small_float(std::abs(value), kHalfMantissa));
-}
-
-float decode_half(std::uint16_t code) {
-    const float value = decode_small_float(code & 0x7fffU, kHalfMantissa);
-    return (code & 0x8000U) != 0 ? -value : value;
-}
 
 using Rgb = std::array<float, 3>;
 
@@ -112,7 +71,8 @@ struct Range {
 Range range_of(Sample sample, int channel) {
     switch (sample) {
         case Sample::kHalf:
-            return {-largest_small_float(kHalfMantissa), largest_small_float(kHalfMantissa)};
+            return {-largest_small_float(kHalfMantissaBits),
+                    largest_small_float(kHalfMantissaBits)};
         case Sample::kFloat:
             return {std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max()};
         case Sample::kR11G11B10:

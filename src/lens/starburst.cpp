@@ -13,6 +13,7 @@
 #include "aureole/fourier/sizes.h"
 #include "aureole/wave/spectral_psf.h"
 #include "lens/starburst_aperture.h"
+#include "lens/starburst_behind.h"
 #include "lens/starburst_pattern.h"
 #include "lens/starburst_tail.h"
 
@@ -94,9 +95,9 @@ std::array<double, 3> energy_outside(const Image& kernel) {
 
 }  // namespace
 
-wave::Psf starburst_psf(const Iris& iris, double pupil_diameter_mm, const wave::KernelGrid& grid,
-                        const StarburstOptions& options, const Occluder* occluder,
-                        Progress* progress) {
+wave::Psf starburst_behind(const Iris& iris, double pupil_diameter_mm, const wave::KernelGrid& grid,
+                           const StarburstOptions& options, const Obstacles& obstacles,
+                           Progress* progress) {
     check(pupil_diameter_mm, grid, options);
     const auto done = [progress](double fraction) {
         if (progress == nullptr) return;
@@ -106,7 +107,7 @@ wave::Psf starburst_psf(const Iris& iris, double pupil_diameter_mm, const wave::
     done(0);
     const StarburstPattern pattern =
         starburst_pattern(iris, pupil_diameter_mm,
-                          plan_raster(iris, pupil_diameter_mm, options.samples, grid), occluder);
+                          plan_raster(iris, pupil_diameter_mm, options.samples, grid), obstacles);
     done(0.4);
     wave::Psf psf;
     psf.grid = grid;
@@ -122,6 +123,12 @@ wave::Psf starburst_psf(const Iris& iris, double pupil_diameter_mm, const wave::
     psf.off_kernel_energy = energy_outside(psf.kernel);
     done(1);
     return psf;
+}
+
+wave::Psf starburst_psf(const Iris& iris, double pupil_diameter_mm, const wave::KernelGrid& grid,
+                        const StarburstOptions& options, const Occluder* occluder,
+                        Progress* progress) {
+    return starburst_behind(iris, pupil_diameter_mm, grid, options, {occluder, nullptr}, progress);
 }
 
 }  // namespace aureole::lens

@@ -168,7 +168,7 @@ RasterPlan plan_raster(const Iris& iris, double pupil_diameter_mm, int samples,
 }
 
 StarburstAperture draw_aperture(const Iris& iris, double pupil_diameter_mm,
-                                const wave::ApertureGrid& grid, const Occluder* occluder) {
+                                const wave::ApertureGrid& grid, const Obstacles& obstacles) {
     const double radius_mm = pupil_diameter_mm / 2;
     const double opening_mm = pupil_diameter_mm * iris.outer_radius();
     wave::Mask mask(grid);
@@ -179,11 +179,12 @@ StarburstAperture draw_aperture(const Iris& iris, double pupil_diameter_mm,
             return iris.image_transmission(x * unit, y * unit, footprint * unit);
         });
     } else {
-        draw_smoothly(outline_of(iris, radius_mm), mask);
+        draw_smoothly(
+            obstacles.outline != nullptr ? *obstacles.outline : outline_of(iris, radius_mm), mask);
     }
-    if (occluder != nullptr) {
+    if (obstacles.occluder != nullptr) {
         multiply_smoothly(mask, opening_mm, [&](float x, float y, float footprint) {
-            return occluder->transmission(x, y, footprint);
+            return obstacles.occluder->transmission(x, y, footprint);
         });
     }
     std::vector<float> gain(static_cast<std::size_t>(grid.samples) / 2 + 1, 1.0F);

@@ -21,14 +21,20 @@ struct RasterPlan {
 RasterPlan plan_raster(const Iris& iris, double pupil_diameter_mm, int samples,
                        const wave::KernelGrid& kernel);
 
-// Amplitude behind iris and occluder (null: clean), and by how much the samples dim its transform.
+// Amplitude behind the pupil, and by how much the samples dim its transform.
 struct StarburstAperture {
     wave::Field field;
     // 1 / (what the mean over a sample leaves of |F|^2) at k samples from the axis along one axis,
     // k = 0 .. N/2; those of both axes multiply.
     std::vector<float> gain;
 };
+// What stands between a light and the iris as it is on the axis.
+struct Obstacles {
+    const Occluder* occluder = nullptr;    // null: clean
+    const wave::Shape* outline = nullptr;  // of what is left of the pupil, in place of the iris's
+    bool none() const { return occluder == nullptr && outline == nullptr; }
+};
 StarburstAperture draw_aperture(const Iris& iris, double pupil_diameter_mm,
-                                const wave::ApertureGrid& grid, const Occluder* occluder);
+                                const wave::ApertureGrid& grid, const Obstacles& obstacles);
 
 }  // namespace aureole::lens

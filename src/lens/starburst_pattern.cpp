@@ -129,7 +129,7 @@ double Crossover::before(double rho) const {
 }
 
 StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
-                                   const RasterPlan& plan, const Occluder* occluder) {
+                                   const RasterPlan& plan, const Obstacles& obstacles) {
     const double opening_mm = pupil_diameter_mm * iris.outer_radius();
     const Crossover crossover{plan.end_samples / kHandOver, plan.end_samples};
     const double core_extent_mm = kCoreWidth * opening_mm;
@@ -137,17 +137,17 @@ StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
     const bool with_core = wide_per_core < 1;
 
     AxisSquare wide = square_around_axis(
-        draw_aperture(iris, pupil_diameter_mm, plan.grid, occluder), plan.end_samples);
+        draw_aperture(iris, pupil_diameter_mm, plan.grid, obstacles), plan.end_samples);
     AngularProfile beyond = AngularProfile::of(wide, plan.end_samples);
     double total = share_beyond(crossover) * beyond.turn();
     SpikeProfile spikes;
     if (has_straight_blades(iris)) {
         AngularProfile blades;
-        if (occluder == nullptr) {
+        if (obstacles.none()) {
             std::swap(blades, beyond);
         } else {
             const AxisSquare clean = square_around_axis(
-                draw_aperture(iris, pupil_diameter_mm, plan.grid, nullptr), plan.end_samples);
+                draw_aperture(iris, pupil_diameter_mm, plan.grid, {}), plan.end_samples);
             blades = AngularProfile::of(clean, plan.end_samples);
             beyond.take_out(blades, first_spike_rad(iris.shape()));
         }
@@ -159,7 +159,7 @@ StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
     std::optional<AxisSquare> core;
     if (with_core) {
         core = square_around_axis(
-            draw_aperture(iris, pupil_diameter_mm, {kCoreSamples, core_extent_mm}, occluder),
+            draw_aperture(iris, pupil_diameter_mm, {kCoreSamples, core_extent_mm}, obstacles),
             kCore.end);
         total += apply(*core, [](double rho) { return kCore.before(rho); });
     }

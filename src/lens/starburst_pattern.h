@@ -37,6 +37,6 @@ struct StarburstPattern {
 
 // Unit energy over all directions.
 StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,
-                                   const RasterPlan& plan, const Occluder* occluder);
+                                   const RasterPlan& plan, const Obstacles& obstacles);
 
 }  // namespace aureole::lens

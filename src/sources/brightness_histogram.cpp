@@ -3,31 +3,44 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "aureole/sources/brightness.h"
 #include "aureole/sources/clusters.h"
+#include "sources/brightness_sums.h"
 
 namespace aureole::sources {
 namespace {
 
+constexpr int kSide = BrightnessHistogram::kBlockSide;
 // Bins of equal width in the bits of positive floats: 32 per octave, 3 % wide at most.
 constexpr unsigned kDroppedBits = 18;
 constexpr std::size_t kBins = std::size_t{1} << (31U - kDroppedBits);
-constexpr int kRowsPerPart = 64;
-constexpr int kLanes = 2;  // histograms in turns: neighbours are often of one brightness
+constexpr std::size_t kParts = 8;
+constexpr std::size_t kLanes = 2;  // histograms in turns: neighbours are often of one brightness
+constexpr std::size_t kPartSize = kLanes * kBins;
 
 std::size_t bin_of(float value) { return std::bit_cast<std::uint32_t>(value) >> kDroppedBits; }
 float lower_edge(std::size_t bin) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(bin) << kDroppedBits);
 }
 
-// Sums of |light| over channels, times weight.
+void check_share(double share) {
+    if (!(share >= 0 && share <= 1)) {
+        throw InvalidArgument("share", fmt::format("{}", share), "must be in [0, 1]");
+    }
+}
+
+const float* weights_at(const float* weights, int width, int x, int y) {
+    return weights == nullptr ? nullptr : weights + static_cast<std::ptrdiff_t>(y) * width + x;
+}
+
+// out[x] = sum of |light| over channels, times weight.
 void energy_row(const ConstImageView& light, const float* weights, int y, float* out) {
     for (int c = 0; c < light.channels; ++c) {
         const float* row = light.data + light.offset(0, y, c);
@@ -46,92 +59,197 @@ void energy_row(const ConstImageView& light, const float* weights, int y, float*
         }
     }
     if (weights == nullptr) return;
-    const float* row =
-        weights + static_cast<std::size_t>(y) * static_cast<std::size_t>(light.width);
-    for (int x = 0; x < light.width; ++x) out[x] *= row[x];
+    for (int x = 0; x < light.width; ++x) out[x] *= weights[x];
+}
+
+struct BlockPlace {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+BlockPlace place_of(const ConstImageView& light, int columns, std::size_t block) {
+    BlockPlace place;
+    place.x = static_cast<int>(block % static_cast<std::size_t>(columns)) * kSide;
+    place.y = static_cast<int>(block / static_cast<std::size_t>(columns)) * kSide;
+    place.width = std::min(kSide, light.width - place.x);
+    place.height = std::min(kSide, light.height - place.y);
+    return place;
+}
+
+ConstImageView columns_of(const ConstImageView& light, const BlockPlace& place) {
+    ConstImageView part = light;
+    part.data += light.offset(place.x, 0, 0);
+    part.width = place.width;
+    return part;
 }
 
 }  // namespace
 
-BrightnessHistogram::BrightnessHistogram() : bins_(kBins) {}
+BrightnessHistogram::BrightnessHistogram()
+    : bins_(kBins), block_bins_(kBins), parts_(kParts * kPartSize) {}
 
-void BrightnessHistogram::measure(const ConstImageView& light, const float* weights, int row_step) {
-    if (row_step < 1) {
-        throw InvalidArgument("row step", fmt::format("{}", row_step), "must be at least 1");
+// Row by row, which is the order of memory, into one row of sums; then by blocks.
+void BrightnessHistogram::look_at_strip(const ConstImageView& light, const float* weights, int row,
+                                        float* scratch) {
+    float* const energy = scratch;
+    float* const largest = energy + light.width;
+    float* const weight = largest + light.width;
+    const int y0 = row * kSide;
+    const int y1 = std::min(light.height, y0 + kSide);
+    std::fill_n(energy, 3 * light.width, 0.0F);
+    for (int y = y0; y < y1; ++y) {
+        const float* w = weights_at(weights, light.width, 0, y);
+        add_brightness_row(light, w, y, energy, largest);
+        for (int x = 0; w != nullptr && x < light.width; ++x) weight[x] += w[x];
     }
-    const int rows = (light.height + row_step - 1) / row_step;
-    const auto parts = static_cast<std::size_t>((rows + kRowsPerPart - 1) / kRowsPerPart);
-    const std::size_t part_size = kLanes * kBins;
-    parts_.assign(parts * part_size, {});
-    const bool complete = row_step == 1;
-    block_columns_ = (light.width + kBlockSide - 1) / kBlockSide;
-    block_rows_ = complete ? (light.height + kBlockSide - 1) / kBlockSide : 0;
-    blocks_.assign(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_),
-                   0.0F);
-    parallel_for(parts, [&](std::size_t part, int) {
-        Bin* bins = parts_.data() + part * part_size;
-        std::vector<float> largest(static_cast<std::size_t>(light.width));
-        std::vector<float> energy(largest.size());
-        const int first = static_cast<int>(part) * kRowsPerPart;
-        const int end = std::min(rows, first + kRowsPerPart);
-        for (int i = first; i < end; ++i) {
-            const int y = std::min(i * row_step + row_step / 2, light.height - 1);
-            largest_channel_row(light, y, largest.data());
-            energy_row(light, weights, y, energy.data());
-            for (std::size_t x = 0; x < largest.size(); ++x) {
-                Bin& bin = bins[bin_of(largest[x]) * kLanes + x % kLanes];
-                bin.energy += static_cast<double>(energy[x]);
-                bin.pixels += 1;
-            }
-            if (!complete) continue;
-            float* blocks =
-                blocks_.data() + static_cast<std::ptrdiff_t>(y / kBlockSide) * block_columns_;
-            for (int block = 0; block < block_columns_; ++block) {
-                const int x0 = block * kBlockSide;
-                const int x1 = std::min(light.width, x0 + kBlockSide);
-                for (int x = x0; x < x1; ++x) {
-                    const float value = largest[static_cast<std::size_t>(x)];
-                    blocks[block] = value > blocks[block] ? value : blocks[block];
-                }
-            }
+    if (weights == nullptr) std::fill_n(weight, light.width, static_cast<float>(y1 - y0));
+    for (int column = 0; column < block_columns_; ++column) {
+        Block block;
+        for (int x = column * kSide; x < std::min(light.width, (column + 1) * kSide); ++x) {
+            block.largest = std::max(block.largest, largest[x]);
+            block.energy += static_cast<double>(energy[x]);
+            block.weight += static_cast<double>(weight[x]);
+        }
+        blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(block_columns_) +
+                static_cast<std::size_t>(column)] = block;
+    }
+}
+
+void BrightnessHistogram::look(const ConstImageView& light, const float* weights) {
+    channels_ = light.channels;
+    block_columns_ = (light.width + kSide - 1) / kSide;
+    block_rows_ = (light.height + kSide - 1) / kSide;
+    blocks_.resize(static_cast<std::size_t>(block_columns_) *
+                   static_cast<std::size_t>(block_rows_));
+    const std::size_t row_size = 3 * static_cast<std::size_t>(light.width);
+    scratch_.resize(row_size * static_cast<std::size_t>(max_workers()));
+    parallel_for(static_cast<std::size_t>(block_rows_), [&](std::size_t row, int worker) {
+        look_at_strip(light, weights, static_cast<int>(row),
+                      scratch_.data() + static_cast<std::size_t>(worker) * row_size);
+    });
+    std::fill(block_bins_.begin(), block_bins_.end(), BlockBin{});
+    total_ = 0;
+    for (const Block& block : blocks_) {
+        BlockBin& bin = block_bins_[bin_of(block.largest)];
+        total_ += block.energy;
+        bin.energy += block.energy;
+        bin.weight += block.weight;
+        ++bin.blocks;
+    }
+    // All of a block at its largest value: what is really below a limit is at least that.
+    for (std::size_t i = 0; i < kBins; ++i) {
+        bins_[i] = {block_bins_[i].energy, static_cast<double>(block_bins_[i].blocks)};
+    }
+}
+
+// Below bin i lies at most the energy of the blocks that are all below it, and in the others what
+// there would be if all their pixels reached it. As long as that is at most the share, no limit for
+// it is below.
+BrightnessHistogram::Begin BrightnessHistogram::begin_of(double least_share) const {
+    check_share(least_share);
+    Begin begin{0, blocks_.size()};
+    double weight = 0;
+    for (const BlockBin& bin : block_bins_) weight += bin.weight;
+    double below = 0;
+    std::size_t above = blocks_.size();
+    for (std::size_t i = 0; i < kBins && below <= least_share * total_; ++i) {
+        const double most = static_cast<double>(lower_edge(i)) * channels_ * std::max(0.0, weight);
+        if (below + most <= least_share * total_) begin = {i, above};
+        below += block_bins_[i].energy;
+        above -= block_bins_[i].blocks;
+        weight -= block_bins_[i].weight;
+    }
+    return begin;
+}
+
+std::size_t BrightnessHistogram::blocks_to_count(double least_share) const {
+    return begin_of(least_share).blocks;
+}
+
+void BrightnessHistogram::count_block(const ConstImageView& light, const float* weights,
+                                      std::size_t block, std::size_t least, Bin* bins) const {
+    const BlockPlace place = place_of(light, block_columns_, block);
+    const ConstImageView part = columns_of(light, place);
+    std::array<float, kSide> largest;
+    std::array<float, kSide> energy;
+    for (int y = place.y; y < place.y + place.height; ++y) {
+        largest_channel_row(part, y, largest.data());
+        energy_row(part, weights_at(weights, light.width, place.x, y), y, energy.data());
+        for (std::size_t x = 0; x < static_cast<std::size_t>(place.width); ++x) {
+            Bin& bin = bins[std::max(bin_of(largest[x]), least) * kLanes + x % kLanes];
+            bin.energy += static_cast<double>(energy[x]);
+            bin.pixels += 1;
+        }
+    }
+}
+
+void BrightnessHistogram::count(const ConstImageView& light, const float* weights,
+                                double least_share, int block_step) {
+    if (block_step < 1) {
+        throw InvalidArgument("block step", fmt::format("{}", block_step), "must be at least 1");
+    }
+    const std::size_t first = begin_of(least_share).bin;
+    // What is below the first bin, wherever.
+    const std::size_t least = first > 0 ? first - 1 : 0;
+    std::size_t last = first;
+    std::size_t matter = 0;
+    std::fill(bins_.begin(), bins_.end(), Bin{});
+    chosen_.clear();
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        const std::size_t bin = bin_of(blocks_[i].largest);
+        if (bin < first) {
+            bins_[least].energy += blocks_[i].energy;
+            continue;
+        }
+        last = std::max(last, bin);
+        if (matter++ % static_cast<std::size_t>(block_step) == 0) {
+            chosen_.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    if (chosen_.empty()) return;
+    const std::size_t per_part = (chosen_.size() + kParts - 1) / kParts;
+    const std::size_t begin_bin = least * kLanes;
+    const std::size_t end_bin = (last + 1) * kLanes;
+    parallel_for(kParts, [&](std::size_t part, int) {
+        Bin* bins = parts_.data() + part * kPartSize;
+        std::fill(bins + begin_bin, bins + end_bin, Bin{});
+        const std::size_t end = std::min(chosen_.size(), (part + 1) * per_part);
+        for (std::size_t i = part * per_part; i < end; ++i) {
+            count_block(light, weights, chosen_[i], least, bins);
         }
     });
-    std::fill(bins_.begin(), bins_.end(), Bin{});
-    total_ = 0;
-    for (std::size_t part = 0; part < parts; ++part) {
-        for (std::size_t i = 0; i < kBins; ++i) {
-            for (std::size_t lane = 0; lane < kLanes; ++lane) {
-                const Bin& bin = parts_[part * part_size + i * kLanes + lane];
-                bins_[i].energy += row_step * bin.energy;
-                bins_[i].pixels += row_step * bin.pixels;
-            }
+    const double scale = static_cast<double>(matter) / static_cast<double>(chosen_.size());
+    for (std::size_t part = 0; part < kParts; ++part) {
+        const Bin* bins = parts_.data() + part * kPartSize;
+        for (std::size_t i = begin_bin; i < end_bin; ++i) {
+            bins_[i / kLanes].energy += scale * bins[i].energy;
+            bins_[i / kLanes].pixels += scale * bins[i].pixels;
         }
     }
-    for (const Bin& bin : bins_) total_ += bin.energy;
+}
+
+void BrightnessHistogram::measure(const ConstImageView& light, const float* weights,
+                                  double least_share) {
+    look(light, weights);
+    count(light, weights, least_share);
 }
 
 bool BrightnessHistogram::may_be_above(float limit, int x0, int y0, int x1, int y1) const noexcept {
-    if (blocks_.empty()) return true;
-    const int last_column = std::min(block_columns_ - 1, (x1 - 1) / kBlockSide);
-    const int last_row = std::min(block_rows_ - 1, (y1 - 1) / kBlockSide);
-    for (int row = std::max(0, y0) / kBlockSide; row <= last_row; ++row) {
-        const float* blocks = blocks_.data() + static_cast<std::ptrdiff_t>(row) * block_columns_;
-        for (int column = std::max(0, x0) / kBlockSide; column <= last_column; ++column) {
-            if (blocks[column] > limit) return true;
+    const int last_column = std::min(block_columns_ - 1, (x1 - 1) / kSide);
+    const int last_row = std::min(block_rows_ - 1, (y1 - 1) / kSide);
+    for (int row = std::max(0, y0) / kSide; row <= last_row; ++row) {
+        const Block* blocks = blocks_.data() + static_cast<std::ptrdiff_t>(row) * block_columns_;
+        for (int column = std::max(0, x0) / kSide; column <= last_column; ++column) {
+            if (blocks[column].largest > limit) return true;
         }
     }
     return false;
 }
 
-double BrightnessHistogram::blocks_above(float limit) const noexcept {
-    return static_cast<double>(std::count_if(blocks_.begin(), blocks_.end(),
-                                             [limit](float value) { return value > limit; }));
-}
-
 float BrightnessHistogram::dim_limit(double share) const {
-    if (!(share >= 0 && share <= 1)) {
-        throw InvalidArgument("share", fmt::format("{}", share), "must be in [0, 1]");
-    }
+    check_share(share);
     double below = 0;
     for (std::size_t i = 0; i < kBins; ++i) {
         if (below + bins_[i].energy > share * total_) {
@@ -153,7 +271,7 @@ double BrightnessHistogram::pixels_above(float limit) const {
 
 float dim_limit_for(const ConstImageView& light, const float* weights, double share) {
     BrightnessHistogram histogram;
-    histogram.measure(light, weights);
+    histogram.measure(light, weights, share);
     return histogram.dim_limit(share);
 }
 

@@ -8,6 +8,8 @@
 
 #include "aureole/base/error.h"
 #include "aureole/base/random.h"
+#include "aureole/sources/bright_area.h"
+#include "aureole/sources/brightness.h"
 
 namespace aureole::sources {
 namespace {
@@ -87,29 +89,135 @@ TEST(BrightnessHistogram, KnowsWhereLightIs) {
     image.at(17, 33, 0) = -2;
     image.at(69, 49, 0) = 1;
     BrightnessHistogram histogram;
-    histogram.measure(image, nullptr);
-    EXPECT_EQ(histogram.blocks_above(1.5F), 1);
-    EXPECT_EQ(histogram.blocks_above(0.5F), 2);
+    histogram.look(image, nullptr);
     EXPECT_TRUE(histogram.may_be_above(1.5F, -5, -5, 18, 34));
     EXPECT_TRUE(histogram.may_be_above(1.5F, 31, 47, 32, 48));
     EXPECT_FALSE(histogram.may_be_above(1.5F, 0, 0, 16, 50));
     EXPECT_FALSE(histogram.may_be_above(1.5F, 32, 0, 200, 200));
     EXPECT_TRUE(histogram.may_be_above(0.5F, 32, 0, 200, 200));
-    histogram.measure(image, nullptr, 2);
-    EXPECT_TRUE(histogram.may_be_above(5, 0, 0, 1, 1));
 }
 
-TEST(BrightnessHistogram, OfSomeRowsEstimatesAll) {
+// Lights over a ground that is dark in half of the blocks.
+Image lights(int width, int height) {
+    Image image = noise(width, height);
+    for (int c = 0; c < 3; ++c) {
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                image.at(x, y, c) *= x < width / 2 ? 1e-9F : (y < height / 2 ? 1e-3F : 1.0F);
+            }
+        }
+    }
+    return image;
+}
+
+TEST(BrightnessHistogram, BoundsFromBlocksHoldForPixels) {
+    const Image image = lights(203, 150);
+    BrightnessHistogram histogram;
+    for (const double share : {0.0, 1e-7, 1e-4, 0.01, 0.3}) {
+        histogram.look(image, nullptr);
+        const float most = histogram.dim_limit(share);
+        const double least_pixels = histogram.pixels_above(most);
+        histogram.count(image, nullptr, share);
+        EXPECT_GE(most, histogram.dim_limit(share));
+        EXPECT_LE(least_pixels, histogram.pixels_above(histogram.dim_limit(share)));
+    }
+}
+
+// Blocks that are left out because no limit is within them change nothing.
+TEST(BrightnessHistogram, OfSomeSharesIsThatOfAll) {
+    const Image image = lights(203, 150);
+    BrightnessHistogram all;
+    all.measure(image, nullptr);
+    for (const double least : {1e-6, 1e-3, 0.05}) {
+        BrightnessHistogram some;
+        some.measure(image, nullptr, least);
+        EXPECT_LT(some.blocks_to_count(least), all.blocks_to_count(0));
+        for (const double share : {least, 2 * least, 0.5}) {
+            EXPECT_EQ(some.dim_limit(share), all.dim_limit(share)) << least << " " << share;
+            EXPECT_EQ(some.pixels_above(some.dim_limit(share)),
+                      all.pixels_above(all.dim_limit(share)));
+        }
+    }
+}
+
+TEST(BrightnessHistogram, OfSomeBlocksEstimatesAll) {
     const Image image = noise(400, 301);
     BrightnessHistogram all;
     all.measure(image, nullptr);
     BrightnessHistogram some;
-    some.measure(image, nullptr, 8);
-    EXPECT_NEAR(some.energy() / all.energy(), 1, 0.1);
+    some.look(image, nullptr);
+    some.count(image, nullptr, 0, 8);
     EXPECT_NEAR(some.pixels_above(some.dim_limit(0.2)) / all.pixels_above(all.dim_limit(0.2)), 1,
                 0.1);
-    EXPECT_THROW(some.measure(image, nullptr, 0), InvalidArgument);
+    EXPECT_THROW(some.count(image, nullptr, 0, 0), InvalidArgument);
+    EXPECT_THROW(some.count(image, nullptr, -0.1), InvalidArgument);
     EXPECT_THROW(static_cast<void>(some.dim_limit(1.5)), InvalidArgument);
+}
+
+// The planes of a picture, or pixel by pixel: the same.
+TEST(BrightnessHistogram, DoesNotDependOnTheOrderInMemory) {
+    const Image planar = noise(67, 33);
+    std::vector<float> pixels(3 * planar.pixels());
+    for (std::size_t i = 0; i < planar.pixels(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            pixels[3 * i + static_cast<std::size_t>(c)] = planar.plane(c)[i];
+        }
+    }
+    ConstImageView interleaved = planar;
+    interleaved.data = pixels.data();
+    interleaved.pixel_stride = 3;
+    interleaved.row_stride = 3 * planar.width();
+    interleaved.channel_stride = 1;
+    BrightnessHistogram a;
+    BrightnessHistogram b;
+    a.measure(planar, nullptr);
+    b.measure(interleaved, nullptr);
+    EXPECT_NEAR(b.energy() / a.energy(), 1, 1e-6);
+    for (const double share : {0.001, 0.3}) EXPECT_EQ(a.dim_limit(share), b.dim_limit(share));
+}
+
+TEST(BrightShare, RisesSmoothlyFromNothingToAll) {
+    EXPECT_EQ(bright_share(1, 1, 2), 0);
+    EXPECT_EQ(bright_share(2, 1, 2), 1);
+    EXPECT_EQ(bright_share(1.5F, 1, 2), 0.5F);
+    constexpr int kSteps = 1000;
+    float before = 0;
+    for (int i = 0; i <= 3 * kSteps; ++i) {
+        const float share = bright_share(static_cast<float>(i) / kSteps, 1, 2);
+        EXPECT_GE(share, before);
+        EXPECT_LE(share - before, 1.6F / kSteps);
+        before = share;
+    }
+    // Without a range it is a step above the limit.
+    EXPECT_EQ(bright_share(1, 1, 0), 0);
+    EXPECT_EQ(bright_share(1.001F, 1, 0), 1);
+}
+
+TEST(BrightArea, CountsBlocksPixelsAndEdges) {
+    Image image(100, 80, 3);
+    // 6 x 5 pixels in one block; a single one.
+    for (int y = 18; y < 23; ++y) {
+        for (int x = 34; x < 40; ++x) image.at(x, y, 1) = 3;
+    }
+    image.at(99, 79, 2) = -3;
+    BrightnessHistogram histogram;
+    histogram.look(image, nullptr);
+    const BrightArea area = bright_area(image, histogram, 1);
+    EXPECT_EQ(area.blocks, 2);
+    EXPECT_EQ(area.pixels, 31);
+    EXPECT_EQ(area.edge_pixels, 30 - 4 * 3 + 1);
+    EXPECT_EQ(bright_area(image, histogram, 4).blocks, 0);
+}
+
+TEST(BrightArea, OfSomeBlocksEstimatesAll) {
+    const Image image = noise(640, 480);
+    BrightnessHistogram histogram;
+    histogram.look(image, nullptr);
+    const BrightArea all = bright_area(image, histogram, 1);
+    const BrightArea some = bright_area(image, histogram, 1, 8);
+    EXPECT_NEAR(some.blocks / all.blocks, 1, 0.05);
+    EXPECT_NEAR(some.pixels / all.pixels, 1, 0.05);
+    EXPECT_NEAR(some.edge_pixels / all.edge_pixels, 1, 0.05);
 }
 
 }  // namespace

@@ -81,7 +81,9 @@ class BlockSearch {
         for (int x = 0; x < part.width; ++x) {
             if (!(largest[static_cast<std::size_t>(x)] > options_.dim_limit)) continue;
             bright |= std::uint64_t{1} << static_cast<unsigned>(x);
-            const float weight = row == nullptr ? 1.0F : row[x];
+            const float weight = bright_share(largest[static_cast<std::size_t>(x)],
+                                              options_.dim_limit, options_.full_limit) *
+                                 (row == nullptr ? 1.0F : row[x]);
             for (int c = 0; c < light.channels; ++c) {
                 block_.energy[static_cast<std::size_t>(c)][BlockEnergies::index(x, y)] =
                     light.at(x0_ + x, y0_ + y, c) * weight;

@@ -64,6 +64,15 @@ TEST(Draw, CoverageIsTheAreaInEachSample) {
                                                          (c * y - s * x) / 0.33) < 1;
                                    }),
               kTolerance);
+    // Turned by 90 deg: tips on the x axis, discs above and below.
+    EXPECT_LT(worst_coverage_error(drawn(grid, vesica(0.6, 3, 90, {0.2, 0})),
+                                   [](double x, double y) {
+                                       const double radius = (9 + 0.36) / (4 * 0.6);
+                                       const double offset = radius - 0.3;
+                                       return std::hypot(x - 0.2, y - offset) < radius &&
+                                              std::hypot(x - 0.2, y + offset) < radius;
+                                   }),
+              kTolerance);
     EXPECT_LT(worst_coverage_error(drawn(grid, rectangle(3, 0.04, 72, {0.2, 0.1})),
                                    [](double x, double y) {
                                        const double c = std::cos(rad_from_deg(72));

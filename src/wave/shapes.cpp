@@ -40,6 +40,42 @@ Outline circle(double radius_mm, Point centre) {
     return points;
 }
 
+// Throws InvalidArgument unless the sum of magnitudes, which is returned, stays below 1.
+double checked_magnitude(std::span<const RadiusHarmonic> harmonics) {
+    double magnitude = 0;
+    for (const RadiusHarmonic& h : harmonics) magnitude += std::abs(h.amplitude);
+    if (!(magnitude < 1)) {
+        throw InvalidArgument("sum of pupil irregularities", std::to_string(magnitude),
+                              "must be below 1");
+    }
+    return magnitude;
+}
+
+double radius_factor(std::span<const RadiusHarmonic> harmonics, double phi) {
+    double factor = 1;
+    for (const RadiusHarmonic& h : harmonics) {
+        factor += h.amplitude * std::cos(h.order * phi + h.phase_rad);
+    }
+    return factor;
+}
+
+// Half of the angle that each of the two arcs spans, seen from the centre of its disc.
+double vesica_half_angle(double width_mm, double height_mm) {
+    return 2 * std::atan(width_mm / height_mm);
+}
+
+double area_mm2(const Shape& shape) {
+    double twice = 0;
+    for (const Outline& outline : shape.outlines) {
+        Point from = outline.back();
+        for (const Point& to : outline) {
+            twice += from.x_mm * to.y_mm - to.x_mm * from.y_mm;
+            from = to;
+        }
+    }
+    return twice / 2;
+}
+
 Point rotated(double x, double y, double rotation_deg, Point centre) {
     const double c = std::cos(rad_from_deg(rotation_deg));
     const double s = std::sin(rad_from_deg(rotation_deg));
@@ -55,28 +91,16 @@ Shape disc(double radius_mm, Point centre) {
 
 Shape irregular_disc(double radius_mm, std::span<const RadiusHarmonic> harmonics, Point centre) {
     require_positive("pupil radius (mm)", radius_mm);
-    double magnitude = 0;
+    const double magnitude = checked_magnitude(harmonics);
     int highest = 1;
-    for (const RadiusHarmonic& h : harmonics) {
-        magnitude += std::abs(h.amplitude);
-        highest = std::max(highest, std::abs(h.order));
-    }
-    if (!(magnitude < 1)) {
-        throw InvalidArgument("sum of pupil irregularities", std::to_string(magnitude),
-                              "must be below 1");
-    }
+    for (const RadiusHarmonic& h : harmonics) highest = std::max(highest, std::abs(h.order));
     // The curvature radius of the outline is smaller by up to order^2 times the amplitude.
     const int n = std::max(chords_per_turn(radius_mm), 64 * highest) * (magnitude > 0 ? 2 : 1);
     Outline points;
     points.reserve(static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k) {
         const double phi = 2 * kPi * k / n;
-        double r = radius_mm * corner_scale(n);
-        double factor = 1;
-        for (const RadiusHarmonic& h : harmonics) {
-            factor += h.amplitude * std::cos(h.order * phi + h.phase_rad);
-        }
-        r *= factor;
+        const double r = radius_mm * corner_scale(n) * radius_factor(harmonics, phi);
         points.push_back({centre.x_mm + r * std::cos(phi), centre.y_mm + r * std::sin(phi)});
     }
     return {{std::move(points)}};
@@ -108,6 +132,66 @@ Shape ellipse(double semi_axis_x_mm, double semi_axis_y_mm, double rotation_deg,
                     rotation_deg, centre);
     }
     return {{std::move(points)}};
+}
+
+double vesica_radius_mm(double width_mm, double height_mm) noexcept {
+    return (height_mm * height_mm + width_mm * width_mm) / (4 * width_mm);
+}
+
+double vesica_area_mm2(double width_mm, double height_mm) noexcept {
+    const double radius_mm = vesica_radius_mm(width_mm, height_mm);
+    const double angle = 2 * vesica_half_angle(width_mm, height_mm);
+    return radius_mm * radius_mm * (angle - std::sin(angle));  // two circular segments
+}
+
+Shape vesica(double width_mm, double height_mm, double rotation_deg, Point centre) {
+    require_positive("vesica width (mm)", width_mm);
+    require_positive("vesica height (mm)", height_mm);
+    if (width_mm > height_mm) {
+        throw InvalidArgument("vesica width (mm)", std::to_string(width_mm),
+                              "must be at most the height, " + std::to_string(height_mm));
+    }
+    constexpr int kFewestChords = 256;  // per arc: a pupil's harmonics turn fast at its waist
+    const double radius_mm = vesica_radius_mm(width_mm, height_mm);
+    const double half_angle = vesica_half_angle(width_mm, height_mm);
+    const int chords = std::max(
+        kFewestChords, static_cast<int>(std::ceil(chords_per_turn(radius_mm) * half_angle / kPi)));
+    const double offset_mm = radius_mm - width_mm / 2;
+    // The area of two segments made of chords, against that of the arcs.
+    const double polygon_mm2 =
+        radius_mm * radius_mm *
+        (chords * std::sin(2 * half_angle / chords) - std::sin(2 * half_angle));
+    const double scale = std::sqrt(vesica_area_mm2(width_mm, height_mm) / polygon_mm2);
+    Outline points;
+    for (const double side : {1.0, -1.0}) {  // the right arc from its lower tip up, then the left
+        for (int k = 0; k < chords; ++k) {
+            const double angle = half_angle * (2.0 * k / chords - 1);
+            points.push_back(rotated(side * scale * (radius_mm * std::cos(angle) - offset_mm),
+                                     side * scale * radius_mm * std::sin(angle), rotation_deg,
+                                     centre));
+        }
+    }
+    return {{std::move(points)}};
+}
+
+Shape with_harmonics(Shape shape, std::span<const RadiusHarmonic> harmonics) {
+    checked_magnitude(harmonics);
+    const double before = area_mm2(shape);
+    for (Outline& outline : shape.outlines) {
+        for (Point& point : outline) {
+            const double factor = radius_factor(harmonics, std::atan2(point.y_mm, point.x_mm));
+            point.x_mm *= factor;
+            point.y_mm *= factor;
+        }
+    }
+    const double scale = std::sqrt(before / area_mm2(shape));
+    for (Outline& outline : shape.outlines) {
+        for (Point& point : outline) {
+            point.x_mm *= scale;
+            point.y_mm *= scale;
+        }
+    }
+    return shape;
 }
 
 Shape rectangle(double width_mm, double height_mm, double rotation_deg, Point centre) {

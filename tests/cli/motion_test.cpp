@@ -161,6 +161,38 @@ TEST_F(Motion, FollowsTheHeadThroughATable) {
     EXPECT_NEAR(rest["parameters"]["vitreous_yaw_deg"].get<double>(), 0, 1e-6);
 }
 
+// The kernel of a moment is the one that glare would make then; the light that the lids leave is
+// reported beside it.
+TEST_F(Motion, PsfOfAMomentIsTheEyeOfThatMoment) {
+    write("in.exr", point(24, 16, 3, 12, 8, 1000));
+    write_bytes("adaptation.csv", "time_s,adaptation_cd_m2\n0,1000\n1,1\n");
+    const std::string eye =
+        " --fov 40 --adaptation adaptation.csv --motion saccades --blink 1 --time 1.03 --scatter "
+        "none";
+    const auto seen = report("glare in.exr -o eye.exr" + eye);
+    const auto made = report("psf -o k.exr --width 24 --height 16 --size 47" + eye);
+    for (const std::string key :
+         {"pupil_mm", "vitreous_yaw_deg", "light_share", "eyelid", "time_s", "motion", "blink"}) {
+        EXPECT_EQ(seen["parameters"][key], made["parameters"][key]) << key;
+    }
+    EXPECT_LT(made["parameters"]["light_share"], 0.999);
+    const double share = made["parameters"]["light_share"];
+    ASSERT_EQ(run("glare in.exr -o file.exr --psf k.exr --fov 40").exit_code, 0);
+    const Image with_eye = read("eye.exr").image();
+    Image with_file = read("file.exr").image();
+    for (std::size_t i = 0; i < 3 * with_file.pixels(); ++i) {
+        with_file.plane(0)[i] *= static_cast<float>(share);
+    }
+    EXPECT_LT(largest_difference(with_eye, with_file), 1e-5 * largest(with_eye));
+    // Another moment is another kernel; the same one, the same.
+    const std::string other = "psf -o b.exr --size 9 --pupil 5 --motion saccades --time ";
+    ASSERT_EQ(run("psf -o a.exr --size 9 --pupil 5 --motion saccades --time 2").exit_code, 0);
+    ASSERT_EQ(run(other + "2").exit_code, 0);
+    EXPECT_TRUE(identical(read("a.exr").image(), read("b.exr").image()));
+    ASSERT_EQ(run(other + "3").exit_code, 0);
+    EXPECT_FALSE(identical(read("a.exr").image(), read("b.exr").image()));
+}
+
 TEST_F(Motion, SaysWhatIsMissingOrWrong) {
     write_frames(2);
     const auto fails = [&](const std::string& words, int code,
@@ -188,6 +220,11 @@ TEST_F(Motion, SaysWhatIsMissingOrWrong) {
     fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "later"});
     write_bytes("bad.csv", "");
     fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "no numbers"});
+    const std::string psf = "psf -o out.exr --size 9 ";
+    fails(psf + "--blink auto", 2, {"--blink", "--time"});
+    fails(psf + "--adaptation a.csv", 2, {"a.csv", "--time"});
+    fails(psf + "--time 1 --fps 24", 2, {"--fps"});
+    fails(psf + "--time 1 --observer camera", 2, {"--time", "--observer"});
     fails("meter in.%04d.exr -o a.csv", 2, {"--frames"});
     fails("meter missing.exr -o a.csv", 1, {"missing.exr"});
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "program.h"
 
@@ -91,6 +92,44 @@ TEST_F(PsfFile, DependsOnTheEyeAndTheSeed) {
     EXPECT_LT(sum_of(read("d.exr").image(), 1), sum_of(a, 1));  // older eyes scatter farther
 }
 
+// A cat's halo lies to both sides, where its slit uncovers the fibres.
+TEST_F(PsfFile, OfASlitPupilSpreadsAcrossIt) {
+    const std::string command =
+        "psf --size 65 --width 480 --pupil 4 --component bloom --fov 10 -o k.exr ";
+    const auto spread = [&](const std::string& options) {
+        const nlohmann::json json = report(command + options);
+        const Image image = read("k.exr").image();
+        double across = 0;
+        double along = 0;
+        for (int y = 0; y < 65; ++y) {
+            for (int x = 0; x < 65; ++x) {
+                across += double{image.at(x, y, 1)} * std::abs(x - 32);
+                along += double{image.at(x, y, 1)} * std::abs(y - 32);
+            }
+        }
+        return std::pair(across / along, json["parameters"]);
+    };
+    EXPECT_NEAR(spread("").first, 1, 0.05);
+    const auto [upright, parameters] = spread("--pupil-shape slit");
+    EXPECT_GT(upright, 2);
+    EXPECT_EQ(parameters["pupil_shape"], "slit");
+    EXPECT_EQ(parameters["pupil_long_mm"], 9);
+    EXPECT_LT(parameters["pupil_short_mm"], 3);
+    EXPECT_NEAR(spread("--pupil-shape slit --pupil-rotation 90").first * upright, 1, 0.05);
+    EXPECT_LT(spread("--pupil-shape ellipse:2").first, 0.8);
+    for (const auto& [options, named] :
+         std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"--pupil-shape blob", {"--pupil-shape", "blob", "slit"}},
+             {"--pupil-shape ellipse:11", {"--pupil-shape", "11", "10"}},
+             {"--pupil-shape ellipse", {"--pupil-shape", "ellipse", "number"}},
+             {"--pupil-rotation 3", {"--pupil-rotation", "--pupil-shape"}}}) {
+        const Outcome outcome = run("psf --size 9 -o bad.exr " + options);
+        EXPECT_EQ(outcome.exit_code, 2) << options;
+        EXPECT_TRUE(names_all(outcome.err, named)) << outcome.err;
+        EXPECT_FALSE(exists("bad.exr"));
+    }
+}
+
 // A kernel of full reach is the eye that glare would make by itself.
 TEST_F(PsfFile, AppliedByGlareIsTheEyeItself) {
     for (const std::string& view : {std::string("--fov 60"), std::string("--fov 25")}) {
@@ -136,6 +175,49 @@ TEST_F(PsfFile, SpectraAreKnownAndOfTheEye) {
     EXPECT_NE(camera.exit_code, 0);
     EXPECT_TRUE(names_all(camera.err, {"--source-spectrum", "eye"}));
     EXPECT_FALSE(exists("k.exr"));
+}
+
+TEST_F(PsfFile, OfEveryColourAtOnceIsRefused) {
+    const Outcome outcome = run("psf -o k.exr --size 9 --source-spectrum rgb");
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_TRUE(names_all(outcome.err, {"--source-spectrum", "rgb", "aureole glare"}));
+}
+
+// White light is daylight, an orange one is not.
+TEST_F(PsfFile, OfEveryColourAtOnceIsThatOfDaylightForWhite) {
+    const std::string glare = "glare in.exr --fov 20 --pupil 7 --source-spectrum ";
+    Image in(48, 27, 3);
+    for (const bool white : {true, false}) {
+        in.at(24, 13, 0) = 1e4F;
+        in.at(24, 13, 1) = white ? 1e4F : 2e3F;
+        in.at(24, 13, 2) = white ? 1e4F : 0;
+        write("in.exr", in);
+        ASSERT_EQ(run(glare + "d65 -o d65.exr").exit_code, 0);
+        EXPECT_EQ(report(glare + "rgb -o rgb.exr")["parameters"]["source_spectrum"], "rgb");
+        const Image by_color = read("rgb.exr").image();
+        const Image daylight = read("d65.exr").image();
+        double apart = 0;
+        double light = 0;
+        for (int c = 0; c < 3; ++c) {
+            for (std::size_t i = 0; i < by_color.pixels(); ++i) {
+                if (i == 13 * 48 + 24) continue;
+                const double value = daylight.plane(c)[i];
+                apart += std::abs(by_color.plane(c)[i] - value);
+                light += value;
+            }
+        }
+        if (white) {
+            EXPECT_LT(apart, 2e-3 * light);
+        } else {
+            EXPECT_GT(apart, 1e-2 * light);
+        }
+    }
+    for (const std::string option : {"--method sprites", "--surround same", "--field-varying on"}) {
+        const Outcome outcome = run(glare + "rgb -o no.exr " + option);
+        EXPECT_NE(outcome.exit_code, 0);
+        EXPECT_TRUE(names_all(outcome.err, {"--source-spectrum rgb", option.substr(0, 8)}));
+        EXPECT_FALSE(exists("no.exr"));
+    }
 }
 
 // `aureole glare` sees lights of the same spectrum.

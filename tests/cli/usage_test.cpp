@@ -37,11 +37,29 @@ TEST_F(Help, OfEveryCommandNamesItsOptions) {
     }
     EXPECT_TRUE(names_all(glare.out, kEye));
     EXPECT_TRUE(names_all(psf.out, kEye));
-    EXPECT_TRUE(names_all(glare.out,
-                          {"INPUT", "--output", "--frames", "--white-luminance", "--method",
-                           "--cluster-error", "--output-layers", "--matte", "--threshold", "--gain",
-                           "--field-varying", "--psf", "--surround", "--side-by-side", "--tone-map",
-                           "--exposure", "--ocio-config", "none|narkowicz|hill|aces"}));
+    EXPECT_TRUE(names_all(glare.out, {"INPUT",
+                                      "--output",
+                                      "--frames",
+                                      "--white-luminance",
+                                      "--method",
+                                      "--cluster-error",
+                                      "--resolution",
+                                      "--output-layers",
+                                      "--matte",
+                                      "--threshold",
+                                      "--gain",
+                                      "--field-varying",
+                                      "--psf",
+                                      "--surround",
+                                      "--side-by-side",
+                                      "--passes",
+                                      "--cluster-side",
+                                      "--supersampling",
+                                      "--halation",
+                                      "--tone-map",
+                                      "--exposure",
+                                      "--ocio-config",
+                                      "none|narkowicz|hill|aces"}));
     EXPECT_TRUE(names_all(psf.out, {"--output", "--width", "--height", "--size", "--component",
                                     "bloom", "corona", "halo", "streaks"}));
     EXPECT_TRUE(
@@ -137,6 +155,10 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUsage{"glare in.exr -o out.exr --method magic", {"--method", "magic", "direct"}},
         WrongUsage{"glare in.exr -o out.exr --cluster-error .1",
                    {"--cluster-error", ".1", "--method", "hybrid", "fft is exact"}},
+        WrongUsage{"glare in.exr -o out.exr --resolution eighth",
+                   {"--resolution", "eighth", "full, half or quarter"}},
+        WrongUsage{"glare in.exr -o out.exr --resolution half --method sprites",
+                   {"--resolution", "half", "full", "--method sprites"}},
         WrongUsage{"glare in.exr -o out.exr --depth quarter", {"--depth", "quarter", "half"}},
         WrongUsage{"glare in.exr -o out.png --exposure nan", {"--exposure", "nan", "100"}},
         WrongUsage{"glare in.exr -o out.png --tone-map pretty", {"--tone-map", "pretty", "hill"}},

@@ -15,9 +15,12 @@ enum class ToneCurve {
     kHill,       // Stephen Hill's fit of the ACES RRT and ODT (BakingLab): through the RRT's space,
                  // so bright colours turn white
     kXyz,        // hue-preserving: see hue_preserving() below
+    kUnity,      // the fit of ACES in Unity's Post Processing Stack v2, without its glow and red
+                 // modifier: in ACEScg, for a dim surround; 1 becomes .80 on a display, and white
+                 // is .95 of the display's light
 };
 
-// The names used on the command line: none, narkowicz, hill, xyz.
+// The names used on the command line: none, narkowicz, hill, xyz, unity.
 // Throws InvalidArgument for any other.
 ToneCurve tone_curve_from_name(std::string_view name);
 

@@ -34,20 +34,44 @@ struct Gratings {
     bool operator==(const Gratings&) const = default;
 };
 
-// The lashes in front of the pupil, hanging from the upper lid.
+// The lashes in front of the pupil: those that hang from the upper lid of the open eye, and those
+// of both lids that curl away from it and come before the pupil when lids close.
 struct Lashes {
     double width_um = 75;      // mean of the full width at the root, +- 25 %
     double angle_sd_deg = 15;  // standard deviation of the direction about the vertical
     double reach = 0.45;       // mean share of the pupil's height that a lash covers from above
     double reach_sd = 0.25;    // its standard deviation
     double curvature_per_mm = 0.03;  // standard deviation
-    double distance_mm = 12;  // of the lashes and the lid's edge before the pupil, 0 to 30: what
-                              // moves them across it with the direction of the light
+    double distance_mm = 12;     // of the lashes and the lid's edge before the pupil, 0 to 30: what
+                                 // moves them across it with the direction of the light
+    double curled_per_mm = 2.8;  // along either lid, where Eye::eyelashes is 7; 0 to 10
+    double curl_deg = 40;  // how far they curl away from straight ahead, spread evenly from 0 to
+                           // this, which is 1 to 90
 
     bool operator==(const Lashes&) const = default;
 };
 
+enum class PupilShape {
+    kRound,    // people
+    kSlit,     // cats, foxes, geckos: between two arcs with vertical tips
+    kEllipse,  // horses, sheep, goats: long axis horizontal
+};
+
+// The outline of a pupil. A pupil_diameter_mm is the diameter of the disc of equal area, whatever
+// the shape: it lets in the same light. The ring of the iris ends every pupil at iris_mm, so that
+// slits and ellipses become round when they open: the tips of a slit stay there while its sides
+// part, an ellipse keeps its axis ratio until it is that long (docs/eye.md).
+struct PupilForm {
+    PupilShape shape = PupilShape::kRound;
+    double axis_ratio = 2;    // kEllipse: long over short, 1 to 10
+    double iris_mm = 9;       // 1 to 9
+    double rotation_deg = 0;  // counter-clockwise, -180 to 180
+
+    bool operator==(const PupilForm&) const = default;
+};
+
 struct Anatomy {
+    PupilForm pupil;
     Particles lens_small = {2500, 1.5, 8};
     Particles lens_large = {750, 10, 35};
     Particles vitreous = {2500, 1.5, 8};
@@ -73,16 +97,13 @@ struct Pose {
     // How far the lashes have come down with a lid that covers nothing, 0 to 1 as Eye::eyelid; the
     // larger of both counts.
     double lash_closure = 0;
-    // Whether lashes bend where they meet the lower lid. Without, they pass it: straight lashes are
-    // those with which the streaks were calibrated.
-    bool lashes_bend = false;
 
     bool operator==(const Pose&) const = default;
 };
 
 // One eye, and what it is made to look like.
 struct Eye {
-    double pupil_diameter_mm = 5;  // 1 to 9; see pupil.h
+    double pupil_diameter_mm = 5;  // of the disc of equal area, 1 to 9; see pupil.h
     double age_years = 30;         // 1 to 120
     Pigmentation pigmentation = Pigmentation::kBrown;
     ScatterModel scatter = ScatterModel::kCie;
@@ -101,6 +122,13 @@ struct Eye {
 
 // Throws InvalidArgument that names the first value outside the ranges above.
 void check(const Eye& eye);
+
+// Length and width of the pupil along its axes, mm; both the diameter of a round one.
+struct PupilAxes {
+    double long_mm = 0;
+    double short_mm = 0;
+};
+PupilAxes pupil_axes(const Eye& eye) noexcept;
 
 // Named settings of corona_contrast, halo and streaks.
 enum class Look {
@@ -149,11 +177,12 @@ void multiply_gratings(const Eye& eye, wave::Field& field);
 // sentence that says where it does not.
 std::string grating_resolution_note(const Eye& eye, const wave::ApertureGrid& grid);
 
-// Share of each sample that lashes block. They move with the upper lid. Those of `eyelashes` hang
+// Share of each sample that lashes block. They move with their lids. Those of `eyelashes` hang
 // before the pupil of a source on the axis; the row goes on to both sides at the same spacing,
-// 15 mm from the axis at most, with lashes that do not reach this pupil. Lashes that bend keep
-// their length between the edge of the upper lid and their tip, which stays on that of the lower
-// one: they become arcs, at most half circles.
+// 15 mm from the axis at most, with lashes that do not reach this pupil. As lids close, lashes that
+// meet the other lid keep their length between the edge of their own and their tip, which stays on
+// that of the other: they become arcs, at most half circles. Curled ones turn in with their lid,
+// and neighbours come together in tufts (docs/streaks.md).
 wave::Mask draw_lashes(const Eye& eye, const wave::ApertureGrid& grid,
                        const FieldPosition& field = {});
 

@@ -33,6 +33,9 @@ struct SpectralSampling {
     // Spectrum of the source, whose lines are bands of their own (illuminant.h). Weights are
     // relative to its colour: docs/spectral_sources.md.
     color::Illuminant illuminant = color::Illuminant::kD65;
+    // Every light has the spectrum of its own colour (color/primary_spectra.h), white that of
+    // kD65: the kernel is a matrix of nine channels (wave/psf.h). Of eye_psf() with kD65 only.
+    bool by_color = false;
     // > 0: one wavelength (nm, 380 to 770), equal in all three channels; the rest is ignored.
     double single_wavelength_nm = 0;
 };
@@ -57,12 +60,26 @@ struct EyePsfTimings {
 // Energy: sum(kernel) + off_kernel_energy is 1 in every colour; off_kernel_energy is integrated
 // from the scatter model, not inferred from the kernel. A source with the illuminant's spectrum
 // keeps its colour in sum. The same arguments give the same bits on any number of threads.
+// By colour, white light sees the kernel of kD65 (to within the clamp of dark needles), and the
+// light of any colour keeps it in sum.
 // With ScatterModel::kNone, S is the Airy pattern of the pupil and T' is 1.
 // At most half of the energy goes into halo and streaks, whatever the looks ask for.
 // Memory: about 350 MB at 4096 samples, beside the kernel.
-// Throws InvalidArgument for an eye or options outside their ranges, Cancelled.
+// Throws InvalidArgument for an eye or options outside their ranges, and by colour for another
+// illuminant than kD65; Cancelled.
 wave::Psf eye_psf(const Eye& eye, const wave::KernelGrid& grid, const EyePsfOptions& options = {},
                   Progress* progress = nullptr, EyePsfTimings* timings = nullptr);
+
+// What lashes do to light before it gets into the eye, alone:
+//
+//     (1 - w_e) delta + w_e E
+//
+// of unit energy, for effects that take streaks and bloom one after the other. Applied before the
+// eye_psf() of the same eye without lashes, it makes of a point the streaks and the veil around
+// them: where eye_psf() adds E, this way E is scattered as well. w_e is at most half.
+// Only the source's own pixel is lit if no lash lies before the pupil.
+wave::Psf streaks_psf(const Eye& eye, const wave::KernelGrid& grid,
+                      const EyePsfOptions& options = {}, Progress* progress = nullptr);
 
 // One component alone, of unit energy over all directions.
 enum class Component {
@@ -75,7 +92,8 @@ wave::Psf eye_component(Component component, const Eye& eye, const wave::KernelG
                         const EyePsfOptions& options = {}, Progress* progress = nullptr);
 
 // Energy of the halo, w_h: 0 up to a pupil of 3 mm (the iris covers the fibres), then .0005 at 5,
-// .0030 at 6, .0062 from 7 mm on, linear between, times eye.halo.
+// .0030 at 6, .0062 from 7 mm on, linear between, times eye.halo. Of a pupil that is not round
+// every sector counts as that of a round one of its radius: it uncovers the same fibres.
 double halo_weight(const Eye& eye);
 
 }  // namespace aureole::eye

@@ -20,11 +20,14 @@ namespace aureole::eye {
 
 struct FieldPsfOptions {
     EyePsfOptions psf;
-    // Between nodes on the axis: of the centre of streaks, and four times as much of their rays.
+    // Between nodes on the axis: of the centre of streaks, and six times as much of their rays.
     // 0.5 to 30. The error falls in proportion, the number of kernels rises with its square.
-    double spacing_deg = 2.2;
-    double centre_deg = 1.1;  // where centre and rays meet; 0.2 to 5
+    double spacing_deg = 1.2;
+    double centre_deg = 0.5;  // where centre and rays meet; 0.2 to 5
     double reach_deg = 4.6;   // where rays are cut off; they have faded by then. Above centre_deg
+    // 0: kernels of all nodes are kept. K > 0: the mean and K principal components of those of the
+    // centre, and as many of the rays (fourier::principal_components): less memory, a larger error.
+    int rank = 0;
 };
 
 // As eye_psf(), and on the axis the same (but for rays beyond reach_deg), for a picture seen as

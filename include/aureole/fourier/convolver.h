@@ -25,12 +25,14 @@ namespace aureole::fourier {
 
 class Convolver {
   public:
-    // Prepares for pictures of width x height x channels. `kernel` has 1 channel (used for all) or
-    // `channels`; its centre is pixel (kernel.width / 2, kernel.height / 2) (rounded down); it is
-    // not kept. Any sizes, the kernel may be larger than the picture.
-    // Memory (full-screen kernel at 1920x1080, RGB): 38 MB work, 19 MB per kernel channel.
-    // Throws InvalidArgument for empty pictures or kernels and for sizes whose padding exceeds
-    // kMaxTransformSize.
+    // Prepares for pictures of width x height x channels. `kernel` has 1 channel (used for all),
+    // `channels`, or one for each pair: then it is a matrix, whose channel `channels` * j + c holds
+    // where the light of channel j goes in channel c, and out(c) is the sum over j. Its centre is
+    // pixel (kernel.width / 2, kernel.height / 2) (rounded down); it is not kept. Any sizes, the
+    // kernel may be larger than the picture. Memory (full-screen kernel at 1920x1080, RGB): 38 MB
+    // work, 19 MB per kernel channel. A matrix takes as many transforms as any other kernel, but
+    // three times the products. Throws InvalidArgument for empty pictures or kernels and for sizes
+    // whose padding exceeds kMaxTransformSize.
     Convolver(int width, int height, int channels, const ConstImageView& kernel);
     ~Convolver();
     Convolver(Convolver&&) noexcept;

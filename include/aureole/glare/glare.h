@@ -1,10 +1,18 @@
 // Applying a point spread function to pictures.
 //
+// A PSF of three channels spreads each colour by itself; a matrix (wave/psf.h) also leads light to
+// other colours, as diffraction does with the light of a coloured source: kFft at full
+// resolution and kDirect, with a dark surround, and grey pictures as if they were white.
+//
 // The result is linear and unclipped, and adds nothing to the energy:
 //     out = in * PSF,
 // and with a threshold, a matte or a gain g, for the light that makes glare,
 //     light = matte * max(0, in - threshold),   out = in + g (light * PSF - light + b light),
 // b the share that a flat field receives from beyond the border if there is light (Surround).
+//
+// Looks may let a tone curve decide what light is, and add glare without taking it from anywhere:
+//     light = matte * max(0, curve(exposure in) - threshold) / exposure,   out = in + g (light *
+//     PSF)
 //
 // Perspective: what is conserved is energy, radiance times the true solid angle W of a pixel, so
 //     W(x) out(x) = sum over s of W(s) in(s) k(x - s),
@@ -15,8 +23,10 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string_view>
 
+#include "aureole/color/tone_curve.h"
 #include "aureole/glare/energy.h"
 #include "aureole/image/image.h"
 #include "aureole/image/view.h"
@@ -41,6 +51,24 @@ enum class Method {
 Method method_from_name(std::string_view name);
 std::string_view name_of(Method method) noexcept;
 
+// Of kFft: how finely what lights send far away is computed. The kernel is split smoothly into near
+// and far; near, out to 64 pixels or more, is applied to all light at full resolution, whatever is
+// chosen here: so small lights and textures are as they are at full resolution. Far goes to a
+// raster and back with weights that keep energy and centroid of every light: nothing moves in
+// steps. How far the result is from kFull's is measured when the object is made, and is at most
+// 1e-3 of the light (in the sense of GlareOptions::cluster_error); kernels for which it would be
+// more, or that are too small for a raster to save anything, are applied at full resolution.
+// docs/reduced_resolution.md derives it.
+enum class Resolution {
+    kFull,
+    kHalf,     // a raster of 2 pixels
+    kQuarter,  // of 4
+};
+
+// The names used on the command line: full, half, quarter. Throws InvalidArgument for any other.
+Resolution resolution_from_name(std::string_view name);
+std::string_view name_of(Resolution resolution) noexcept;
+
 // What lies beyond the picture's border.
 enum class Surround {
     kDark,  // nothing: the physics of a picture that is all there is. Pixels at the border lose
@@ -55,6 +83,7 @@ Surround surround_from_name(std::string_view name);
 
 struct GlareOptions {
     Method method = Method::kFft;
+    Resolution resolution = Resolution::kFull;  // others: kFft only
     // Pixel values up to here make no glare, per channel and continuously (in the picture's
     // units); 0, the physical default, lets everything through.
     float threshold = 0;
@@ -63,6 +92,14 @@ struct GlareOptions {
     // Whether apply() will be given a matte.
     bool matte = false;
     Surround surround = Surround::kDark;
+    // Applied to the picture before the threshold, which is then one of the curve's results (0 to
+    // 1): what is beyond the curve's white makes no more glare than white. None: the picture
+    // itself.
+    std::optional<color::ToneCurve> source_curve;
+    float exposure_scale = 1;  // > 0; multiplies the picture before source_curve
+    // Glare is added to the picture, and nothing is taken away where it comes from. Needs
+    // Surround::kDark: there is nothing to make up for.
+    bool added = false;
     // kSprites, kHybrid, kAuto: the error that clusters of lights, ends of sprites and light left
     // out may add up to: the sum over pixels and channels of solid angle times |difference| from
     // kFft, over the sum of that times |light|. In (0, 1).
@@ -77,20 +114,30 @@ struct MethodReport {
     enum class Reason {
         kAsked,      // no kAuto
         kNoGain,     // whatever the picture, nothing else can be faster
-        kSample,     // some rows show too much light for sprites
-        kHistogram,  // the whole picture does
+        kBlocks,     // light in too many places for sprites
+        kSample,     // some blocks of pixels show too much of it
+        kHistogram,  // all of them do
         kPredicted,  // lights were looked for, and costs compared
     };
     struct Candidate {
         Method method = Method::kFft;
-        double predicted_seconds = 0;  // kAuto only, looking included; 0: ruled out before
-        double actual_seconds = 0;     // when it was used last; 0: never
+        // kAuto only, corrected by what the last pictures took; of sprites, and of a hybrid with
+        // something to plan, looking and planning included; 0: ruled out before.
+        double predicted_seconds = 0;
+        double actual_seconds = 0;  // when it was used last; 0: never
     };
     Method method = Method::kFft;
     Reason reason = Reason::kAsked;
     std::array<Candidate, 3> candidates = {Candidate{Method::kFft}, Candidate{Method::kSprites},
                                            Candidate{Method::kHybrid}};
     std::size_t sprites = 0;  // far ones included
+    // The raster for the far part of the kernel; the same for all pictures.
+    struct Raster {
+        int scale = 1;        // pixels along a side of it; 1: there is none
+        int near_radius = 0;  // pixels: where the near part ends
+        double error = 0;     // over the sum of solid angle times |light|
+    };
+    Raster raster;
     // Both over the sum of solid angle times |light|.
     double error_bound = 0;
     double energy_cut = 0;  // at most, light that ended with sprites or a kernel's end
@@ -103,9 +150,10 @@ class Glare {
     // `channels` is 3 (RGB) or 1 (grey: the luminance of the PSF). The kernel may have any size;
     // what lies beyond it counts as off the picture. The PSF is not kept.
     // Throws InvalidArgument for other channel counts, negative threshold or gain, and when the
-    // PSF was made for another pitch or projection than the view's (by more than 0.1 %), and for
-    // cluster_error and cluster_side out of range. The first kAuto of a process measures the
-    // machine for some 50 ms.
+    // PSF was made for another pitch or projection than the view's (by more than 0.1 %), for
+    // other options out of range, for a reduced resolution with other methods than kFft, and for a
+    // matrix with another method, resolution or surround than above. kAuto times the methods for
+    // some 100 ms, the first one of a process a little longer.
     Glare(const View& view, int channels, const wave::Psf& psf, const GlareOptions& options = {});
     ~Glare();
     Glare(Glare&&) noexcept;

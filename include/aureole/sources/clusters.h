@@ -71,6 +71,9 @@ struct ClusterOptions {
     bool cells = true;
     // Pixels none of whose channels exceeds this are not bright: they are in no cluster. >= 0.
     float dim_limit = 0;
+    // Of a pixel between dim_limit and this one only a share is bright, which rises smoothly
+    // (bright_share()): no edge shows where light crosses the limit. <= dim_limit: all is.
+    float full_limit = 0;
 };
 
 struct Cluster {
@@ -91,7 +94,7 @@ struct Clusters {
     std::vector<Cluster> clusters;  // block by block of max_side, row by row
     std::size_t bright_pixels = 0;  // that are in clusters
     double energy = 0;              // of the clusters: sums over channels of |e|
-    double energy_left = 0;         // of pixels that are not bright
+    double energy_left = 0;         // of what is not bright
     double error_bound = 0;         // sum over clusters
 };
 

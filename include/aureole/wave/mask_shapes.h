@@ -58,6 +58,18 @@ Shape annulus(double inner_radius_mm, double outer_radius_mm, Point centre = {})
 Shape ellipse(double semi_axis_x_mm, double semi_axis_y_mm, double rotation_deg = 0,
               Point centre = {});
 
+// The common part of two equal discs, with two tips on the y axis before rotation: the slit pupil
+// of a cat. Full width and height, width_mm <= height_mm; equal ones are a disc.
+Shape vesica(double width_mm, double height_mm, double rotation_deg = 0, Point centre = {});
+// (height^2 + width^2) / (4 width): of the discs.
+double vesica_radius_mm(double width_mm, double height_mm) noexcept;
+double vesica_area_mm2(double width_mm, double height_mm) noexcept;
+
+// Any shape around the origin, every point of which is moved along its direction from there by the
+// factor of a periodic radius (above), and which then is scaled to its former area. Throws like
+// irregular_disc().
+Shape with_harmonics(Shape shape, std::span<const RadiusHarmonic> harmonics);
+
 // Full width and height before rotation; a slit is a narrow rectangle.
 Shape rectangle(double width_mm, double height_mm, double rotation_deg = 0, Point centre = {});
 

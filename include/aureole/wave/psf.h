@@ -29,9 +29,12 @@ struct KernelGrid {
 // sum(kernel plane c) + off_kernel_energy[c] == 1.
 // Values may be slightly negative in RGB where a spectral colour lies outside the gamut.
 struct Psf {
-    Image kernel;  // 3 channels: linear sRGB, white = (1, 1, 1)
+    // 3 channels: linear sRGB, white = (1, 1, 1). Or 9, a matrix: channel 3 j + c is where the
+    // light of the primary j (red, green, blue) lands in colour c; it sums to 1 for j == c and to 0
+    // else, and its sum over j is the kernel of white.
+    Image kernel;
     KernelGrid grid;
-    std::array<double, 3> off_kernel_energy = {};
+    std::array<double, 3> off_kernel_energy = {};  // of white
 };
 
 }  // namespace aureole::wave

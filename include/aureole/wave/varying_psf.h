@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "aureole/fourier/varying_convolver.h"
+#include "aureole/fourier/kernel_nodes.h"
 #include "aureole/image/view.h"
 #include "aureole/wave/psf.h"
 

@@ -1,0 +1,198 @@
+// What a flipbook differs by from direct computation.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "aureole/base/error.h"
+#include "aureole/base/random.h"
+#include "aureole/eye/flipbook_bake.h"
+#include "aureole/eye/flipbook_player.h"
+#include "eye/flipbook_selection.h"
+#include "eye/flipbook_terms.h"
+
+namespace aureole::eye {
+namespace {
+
+constexpr double kFromDeg = 0.3;
+constexpr double kToDeg = 5;
+constexpr double kRingDeg = 0.1;
+
+// Sums of squares of differences and of what should be.
+struct Squares {
+    double difference = 0;
+    double wanted = 0;
+    double root() const { return wanted > 0 ? std::sqrt(difference / wanted) : 0; }
+};
+
+class Measurement {
+  public:
+    Measurement(const Flipbook& book, const Eye& eye, const EyePsfOptions& options)
+        : book_(book),
+          options_(options),
+          player_(book, eye, options.spectral, book.grid()),
+          angle_deg_(book.grid().width, book.grid().height, 1),
+          played_(book.grid().width, book.grid().height, 3) {
+        if (options.aperture != book.aperture()) {
+            throw InvalidArgument("the flipbook was baked with another aperture raster");
+        }
+        psf_.kernel = played_;
+        const View view = book.grid().view();
+        for (int y = 0; y < angle_deg_.height(); ++y) {
+            for (int x = 0; x < angle_deg_.width(); ++x) {
+                angle_deg_.at(x, y) =
+                    static_cast<float>(view.angle_from_axis_deg(x + 0.5, y + 0.5));
+            }
+        }
+    }
+
+    void add(const Eye& now) {
+        add_term(Component::kCorona, now, texture_);
+        add_term(Component::kHalo, now, halo_);
+        add_term(Component::kStreaks, now, streaks_);
+        add_psf(now);
+        ++poses_;
+    }
+
+    FlipbookErrors errors() const {
+        return {texture_.root(), halo_.root(), streaks_.root(), all_.root(), worst_ring_, poses_};
+    }
+
+  private:
+    template <class Visit>
+    void over_annulus(const Visit& visit) const {
+        for (int y = 0; y < angle_deg_.height(); ++y) {
+            for (int x = 0; x < angle_deg_.width(); ++x) {
+                const auto angle = static_cast<double>(angle_deg_.at(x, y));
+                if (angle >= kFromDeg && angle < kToDeg) visit(x, y, angle);
+            }
+        }
+    }
+
+    void add_term(Component component, const Eye& now, Squares& squares) {
+        const FlipbookTerm term =
+            flipbook_term(component, now, player_.envelope(), book_.grid(), options_);
+        if (term.weight == 0) return;
+        player_.write_term(component, now, played_);
+        over_annulus([&](int x, int y, double) {
+            for (int c = 0; c < 3; ++c) {
+                const auto wanted = static_cast<double>(term.relative.at(x, y, c));
+                squares.difference +=
+                    std::pow(static_cast<double>(played_.at(x, y, c)) - wanted, 2);
+                squares.wanted += wanted * wanted;
+            }
+        });
+    }
+
+    void add_psf(const Eye& now) {
+        player_.write(now, psf_);
+        const wave::Psf direct = eye_psf(now, book_.grid(), options_);
+        struct Ring {
+            double difference = 0, sum = 0;
+            int count = 0;
+        };
+        std::vector<Ring> rings(
+            static_cast<std::size_t>(std::lround((kToDeg - kFromDeg) / kRingDeg)) + 1);
+        over_annulus([&](int x, int y, double angle) {
+            Ring& ring = rings[static_cast<std::size_t>((angle - kFromDeg) / kRingDeg)];
+            const auto e = static_cast<double>(player_.envelope().at(x, y));
+            for (int c = 0; c < 3; ++c) {
+                const auto wanted = static_cast<double>(direct.kernel.at(x, y, c));
+                const double difference = static_cast<double>(psf_.kernel.at(x, y, c)) - wanted;
+                all_.difference += std::pow(difference / e, 2);
+                all_.wanted += std::pow(wanted / e, 2);
+                ring.difference += difference * difference;
+                ring.sum += wanted;
+                ++ring.count;
+            }
+        });
+        for (const Ring& ring : rings) {
+            if (ring.count == 0) continue;
+            worst_ring_ = std::max(
+                worst_ring_, std::sqrt(ring.difference / ring.count) / (ring.sum / ring.count));
+        }
+    }
+
+    const Flipbook& book_;
+    const EyePsfOptions& options_;
+    FlipbookPlayer player_;
+    Image angle_deg_;
+    Image played_;
+    wave::Psf psf_;
+    Squares texture_, halo_, streaks_, all_;
+    double worst_ring_ = 0;
+    int poses_ = 0;
+};
+
+// Whether a pupil is a node of an axis.
+bool is_node(const FlipbookAxis& axis, double pupil_mm) {
+    const auto [low, share] = axis.place(pupil_mm);
+    return std::abs(axis.at(share > 0.5 ? low + 1 : low) - pupil_mm) < 1e-9;
+}
+
+FlipbookErrors measure(const Flipbook& book, const Eye& eye, const EyePsfOptions& options,
+                       const std::vector<Eye>& poses, Progress* progress) {
+    Measurement measurement(book, eye, options);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (progress != nullptr) {
+            progress->report("measuring",
+                             static_cast<double>(i) / static_cast<double>(poses.size()));
+            if (progress->cancelled()) throw Cancelled();
+        }
+        measurement.add(poses[i]);
+    }
+    if (progress != nullptr) progress->report("measuring", 1);
+    return measurement.errors();
+}
+
+}  // namespace
+
+FlipbookErrors errors_at_frames(const Flipbook& book, const Eye& eye, const EyePsfOptions& options,
+                                int poses, Progress* progress) {
+    const FlipbookAxes axes(book.range());
+    std::vector<Eye> all;
+    for (const FlipbookFrame& frame : frames_of(book.range())) {
+        if (frame.component != Component::kCorona) break;
+        Eye now = eye_at(eye, frame);
+        const bool halo_stored = axes.halo_pupils.nodes > 0
+                                     ? is_node(axes.halo_pupils, frame.pupil_mm)
+                                     : frame.pupil_mm < kHaloFromMm;
+        if (!is_node(axes.streak_pupils, frame.pupil_mm)) continue;
+        if (!halo_stored && halo_weight(now) > 0) continue;
+        now.pose.lash_closure =
+            axes.closures.at(static_cast<int>(all.size()) % axes.closures.nodes);
+        all.push_back(now);
+    }
+    // In steps that share no factor with their number, so that pupils and states mix.
+    std::size_t step = all.size() * 3 / 8;
+    while (step > 1 && std::gcd(step, all.size()) > 1) --step;
+    std::vector<Eye> chosen;
+    for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(poses), all.size()); ++i) {
+        chosen.push_back(all[i * std::max<std::size_t>(step, 1) % all.size()]);
+    }
+    return measure(book, eye, options, chosen, progress);
+}
+
+FlipbookErrors errors_between_frames(const Flipbook& book, const Eye& eye,
+                                     const EyePsfOptions& options, int poses, Progress* progress) {
+    constexpr double kMostTurnDeg = 1;
+    constexpr double kMostClosure = 0.5;
+    const FlipbookRange& range = book.range();
+    Random random(1, 0);
+    std::vector<Eye> chosen;
+    for (int i = 0; i < poses; ++i) {
+        Eye now = eye;
+        now.pupil_diameter_mm = random.uniform(range.pupil_from_mm, range.pupil_to_mm);
+        now.pose.lens_scale = 1 + random.uniform(-range.lens_scale_span, range.lens_scale_span);
+        now.pose.vitreous_yaw_deg = random.uniform(-kMostTurnDeg, kMostTurnDeg);
+        now.pose.vitreous_pitch_deg = random.uniform(-kMostTurnDeg, kMostTurnDeg);
+        now.pose.lash_closure = random.uniform(0, kMostClosure);
+        now.eyelid = i % 2 == 0 ? 0 : now.pose.lash_closure;
+        chosen.push_back(now);
+    }
+    return measure(book, eye, options, chosen, progress);
+}
+
+}  // namespace aureole::eye

@@ -1,0 +1,77 @@
+#include "aureole/wave/field_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "aureole/base/units.h"
+
+namespace aureole::wave {
+namespace {
+
+constexpr double kOverlap = 0.25;
+
+int nodes_over(int pixels, double spacing_px) {
+    return std::min(pixels, 1 + static_cast<int>(std::ceil((pixels - 1) / spacing_px)));
+}
+
+// In pixel positions: node 0 in the middle of the first pixel.
+double place(int node, int nodes, int pixels) {
+    return nodes == 1 ? pixels / 2.0 : 0.5 + static_cast<double>(node) * (pixels - 1) / (nodes - 1);
+}
+
+}  // namespace
+
+NodePlaces node_places(const View& view, double spacing_deg) {
+    const double spacing_px = spacing_deg / view.pitch_deg;
+    NodePlaces nodes{nodes_over(view.width, spacing_px), nodes_over(view.height, spacing_px), {}};
+    for (int j = 0; j < nodes.rows; ++j) {
+        for (int i = 0; i < nodes.columns; ++i) {
+            nodes.places.push_back(
+                {place(i, nodes.columns, view.width), place(j, nodes.rows, view.height)});
+        }
+    }
+    return nodes;
+}
+
+KernelGrid grid_within(const View& view, double angle_deg) {
+    const double angle = rad_from_deg(angle_deg);
+    const double radius_px =
+        view.focal_length_px() *
+        (view.projection == Projection::kPerspective ? std::tan(angle) : angle);
+    const int side = 2 * static_cast<int>(std::ceil(radius_px)) + 1;
+    KernelGrid grid = KernelGrid::full_reach(view);
+    grid.width = std::min(grid.width, side);
+    grid.height = std::min(grid.height, side);
+    return grid;
+}
+
+Image radial_window(const KernelGrid& grid, double end_deg) {
+    Image window(grid.width, grid.height, 1);
+    const View view = grid.view();
+    for (int y = 0; y < grid.height; ++y) {
+        for (int x = 0; x < grid.width; ++x) {
+            const double angle_deg = view.angle_from_axis_deg(x + 0.5, y + 0.5);
+            const double t = std::clamp((1 - angle_deg / end_deg) / kOverlap, 0.0, 1.0);
+            window.at(x, y) = static_cast<float>(t * t * (3 - 2 * t));
+        }
+    }
+    return window;
+}
+
+Image windowed(const Image& kernel, const Image& window, bool outside, double scale) {
+    Image result(window.width(), window.height(), 3);
+    const int shift_x = kernel.width() / 2 - window.width() / 2;
+    const int shift_y = kernel.height() / 2 - window.height() / 2;
+    for (int c = 0; c < 3; ++c) {
+        for (int y = std::max(0, -shift_y); y < window.height() - std::max(0, -shift_y); ++y) {
+            for (int x = std::max(0, -shift_x); x < window.width() - std::max(0, -shift_x); ++x) {
+                const float share = outside ? 1 - window.at(x, y) : window.at(x, y);
+                result.at(x, y, c) =
+                    static_cast<float>(scale) * share * kernel.at(x + shift_x, y + shift_y, c);
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace aureole::wave
