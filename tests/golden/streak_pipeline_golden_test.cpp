@@ -100,10 +100,9 @@ wave::Psf retina() {
 
 wave::Psf diaphragm() { return lens::starburst_psf(lens::Iris({.blades = 6}), 3, grid()); }
 
+// Exactly: what sprites may differ by is no matter of pictures.
 Image streaks_of(const wave::Psf& psf) {
     glare::GlareOptions options;
-    options.method = glare::Method::kSprites;
-    options.cluster_error = kError;
     options.threshold = kThreshold;
     Image out(street().rgb.width(), street().rgb.height(), 3);
     glare::Glare(street().view, 3, psf, options).apply(street().rgb, out);
