@@ -48,10 +48,10 @@ void write(std::span<std::byte> bytes, std::size_t at, const T& value) {
 
 // Says what is wrong with bytes that cannot be a book of this program at all.
 FlipbookPreamble checked_preamble(std::span<const std::byte> bytes) {
-    const InvalidArgument foreign("is no flipbook of aureole");
-    if (bytes.size() < sizeof(FlipbookPreamble)) throw foreign;
+    const char* const foreign = "is no flipbook of aureole";
+    if (bytes.size() < sizeof(FlipbookPreamble)) throw InvalidArgument(foreign);
     const auto preamble = read<FlipbookPreamble>(bytes, 0);
-    if (preamble.magic != kFlipbookMagic) throw foreign;
+    if (preamble.magic != kFlipbookMagic) throw InvalidArgument(foreign);
     if (preamble.byte_order == 0x04030201) {
         throw InvalidArgument("was baked on a machine of the other byte order: bake it here again");
     }

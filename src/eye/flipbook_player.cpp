@@ -141,10 +141,11 @@ void FlipbookPlayer::Impl::fill(const std::array<double, 3>& rest, double pupil_
     const int half_height = grid.height / 2;
     const int raster = book.grid().width / 2;
     const int reach = std::min(raster, half_width);
-    const auto [node, share] =
+    const FlipbookAxis::Place place =
         scatter.size() == 1 ? FlipbookAxis::Place{0, 0} : axes.texture_pupils.place(pupil_mm);
-    const Quadrant& low = scatter[static_cast<std::size_t>(node)];
-    const Quadrant& high = share > 0 ? scatter[static_cast<std::size_t>(node) + 1] : low;
+    const Quadrant& low = scatter[static_cast<std::size_t>(place.low)];
+    const double share = place.share;
+    const Quadrant& high = share > 0 ? scatter[static_cast<std::size_t>(place.low) + 1] : low;
     const auto second = static_cast<float>(share);
     parallel_for(static_cast<std::size_t>(half_height) + 1, [&](std::size_t y, int worker) {
         const int dy = static_cast<int>(y);
