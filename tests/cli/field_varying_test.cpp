@@ -33,7 +33,7 @@ TEST_F(FieldVarying, FewComponentsTakeLessMemoryAndHaveLargerErrors) {
     write("in.exr", noise(48, 27, 3));
     const auto field = [&](const std::string& value) {
         const Outcome outcome =
-            run("glare in.exr -o out.exr --fov 20 --pupil 5 --wavelengths 8 "
+            run("glare in.exr -o out.exr --fov 20 --pupil 5 "
                 "--field-varying " +
                 value + " --json");
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
