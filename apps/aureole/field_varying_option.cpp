@@ -20,7 +20,7 @@ void FieldVaryingOption::add_to(CLI::Option_group& group) {
                     "on: glare changes with the position of each light: an eye's streaks turn, as "
                     "lashes 12 mm before the pupil do, a camera's stars take the shape that its "
                     "mounts leave of the pupil; DEG: on, computed every so many degrees (0.5 to "
-                    "30; on: 1.2, camera 4); rank=K: on, with K principal components in place of "
+                    "30; on: 1.1, camera 4); rank=K: on, with K principal components in place of "
                     "all kernels: less memory, larger errors; off: that of the axis everywhere")
         ->type_name("off|on|rank=K|DEG")
         ->capture_default_str();

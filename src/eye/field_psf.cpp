@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kMostFieldDeg = 160;
 // How much coarser the nodes of the rays are.
-constexpr double kRaySpacing = 6;
+constexpr double kRaySpacing = 7;
 
 void check(const View& view, const FieldPsfOptions& options) {
     if (options.rank < 0) {
