@@ -84,7 +84,8 @@ void GlareCommand::add_options(CLI::App& command) {
             "and streaks, added; sikachev: streaks of "
             "what is brighter than 1, as clusters, then bloom (--passes both "
             "--method sprites --cluster-error 0.001 --threshold 1 --resolution half "
-            "--tone-map xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): ghosts as "
+            "--tone-map xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): "
+            "ghosts as "
             "drawn by a game, faded polygons of one colour each"),
         {"physical", "vivid", "thesis", "sikachev", "blog"});
     preset_option->capture_default_str();
@@ -118,9 +119,10 @@ void GlareCommand::check() {
     spread.check();
     field_varying.check();
     if (field_varying.on()) {
-        const auto alone = [](const std::string& option) {
+        const auto alone = [&](const std::string& option) {
             if (!option.empty()) {
-                throw InvalidArgument("--field-varying: cannot be combined with " + option);
+                throw InvalidArgument(field_varying.first_given() + ": cannot be combined with " +
+                                      option);
             }
         };
         alone(psf_file.empty() ? "" : "--psf");
@@ -142,6 +144,7 @@ void GlareCommand::check_camera() {
     refuse(view.white_luminance_given() ? "--white-luminance" : "",
            "matters for the eye's pupil only: leave it out with --observer camera");
     refuse(book_file.empty() ? "" : "--book", "needs --observer eye");
+    refuse(field_varying.needles() ? "--needles-by-position" : "", "needs --observer eye");
     refuse(preset == "vivid" || preset == "thesis" ? "--preset " + preset : "",
            "needs --observer eye");
     const Passes passes = spread.passes();
@@ -165,6 +168,8 @@ void GlareCommand::check_eye() {
     }
     eye.set_preset(preset == "vivid" ? "vivid" : "physical");
     eye.check();
+    refuse(field_varying.needles() && !eye.has_corona() ? "--needles-by-position" : "",
+           "has no effect without a corona: needs --scatter and a --corona-contrast above 0");
     motion.check();
     if (!motion.alive()) {
         refuse(book_file.empty() ? "" : "--book " + book_file,
@@ -182,7 +187,7 @@ void GlareCommand::check_eye() {
                 throw InvalidArgument("--source-spectrum rgb: cannot be combined with " + option);
             }
         };
-        alone(field_varying.on() ? "--field-varying" : "");
+        alone(field_varying.first_given());
         alone(spread.method == "fft" || spread.method == "direct" ? ""
                                                                   : "--method " + spread.method);
         alone(spread.surround == "same" ? "--surround same" : "");
@@ -211,7 +216,7 @@ void GlareCommand::check_thesis() {
         }
     };
     alone(psf_file.empty() ? "" : "--psf");
-    alone(field_varying.on() ? "--field-varying" : "");
+    alone(field_varying.first_given());
     alone(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name);
     alone(book_file.empty() ? "" : "--book");
     alone(spread.surround == "dark" ? "" : "--surround " + spread.surround);
