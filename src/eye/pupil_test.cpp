@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "aureole/base/error.h"
+#include "aureole/eye/ranges.h"
 #include "aureole/base/units.h"
 
 namespace aureole::eye {
@@ -109,6 +110,8 @@ TEST(Pupil, IsFiniteInDarkness) {
 TEST(Pupil, RefusesAbsurdInput) {
     const auto model = PupilModel::kWatsonYellott;
     EXPECT_THROW(pupil_diameter_mm(model, -1), InvalidArgument);
+    EXPECT_NO_THROW(pupil_diameter_mm(model, kBrightestCdM2));
+    EXPECT_THROW(pupil_diameter_mm(model, 2 * kBrightestCdM2), InvalidArgument);
     EXPECT_THROW(pupil_diameter_mm(model, std::numeric_limits<double>::quiet_NaN()),
                  InvalidArgument);
     EXPECT_THROW(pupil_diameter_mm(model, std::numeric_limits<double>::infinity()),
