@@ -20,11 +20,6 @@ namespace {
 
 constexpr const char* kFallbackLens = "heliar";
 
-// Unless `option` is empty.
-void refuse(const std::string& option, const std::string& why) {
-    if (!option.empty()) throw InvalidArgument(option + ": " + why);
-}
-
 struct GlareCommand {
     void add_options(CLI::App& command);
     void run();
@@ -84,7 +79,8 @@ void GlareCommand::add_options(CLI::App& command) {
             "and streaks, added; sikachev: streaks of "
             "what is brighter than 1, as clusters, then bloom (--passes both "
             "--method sprites --cluster-error 0.001 --threshold 1 --resolution half "
-            "--tone-map xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): ghosts as "
+            "--tone-map xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): "
+            "ghosts as "
             "drawn by a game, faded polygons of one colour each"),
         {"physical", "vivid", "thesis", "sikachev", "blog"});
     preset_option->capture_default_str();
@@ -164,18 +160,18 @@ void GlareCommand::check_eye() {
         return;
     }
     eye.set_preset(preset == "vivid" ? "vivid" : "physical");
-    eye.check();
-    motion.check();
-    if (!motion.alive()) {
-        refuse(book_file.empty() ? "" : "--book " + book_file,
-               "is for an eye that moves: needs --time or --fps");
-        refuse(eye.adaptation_file().empty() ? "" : "--adaptation " + eye.adaptation_file(),
-               "is a table over time: needs --time or --fps");
-    }
+    app::check_eye(eye, motion);
+    refuse(book_file.empty() || motion.alive() ? "" : "--book " + book_file,
+           "is for an eye that moves: needs --time or --fps");
     // The first picture that a run happens to render must not decide for the others.
     refuse(motion.has_rate() && eye.needs_adaptation() ? "--fps" : "",
            "needs a luminance that is known for every frame: --adaptation with a table of `aureole "
            "meter` or a number, or --pupil");
+    refuse(motion.has_rate() && motion.squints() && motion.given("--squint") && eye.meters()
+               ? "--squint"
+               : "",
+           "with --fps needs a luminance that is known for every frame: --adaptation with a table "
+           "of `aureole meter` or a number");
     if (eye.by_color()) {
         const auto alone = [](const std::string& option) {
             if (!option.empty()) {
@@ -215,7 +211,6 @@ void GlareCommand::check_thesis() {
     alone(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name);
     alone(book_file.empty() ? "" : "--book");
     alone(spread.surround == "dark" ? "" : "--surround " + spread.surround);
-    if (frames.empty()) motion.check();
     eye.check();
     eye.set_default_pupil_model("thesis");
     spread.set_thesis_look();
@@ -254,6 +249,9 @@ void GlareCommand::run() {
     }
     settings.prepare(list);
     check();
+    const bool one_moment = list.size() > 1 && motion.alive() && !motion.has_rate();
+    refuse(one_moment && !frames.empty() ? "--time" : "",
+           "with --frames every frame would be seen at the same moment: needs --fps");
     ghosts.check_pictures(list.size());
     const std::unique_ptr<Observer> who = observer();
     PictureJob job(settings, spread, *who, session);

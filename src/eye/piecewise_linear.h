@@ -13,14 +13,15 @@
 
 namespace aureole::eye {
 
-// Throws InvalidArgument unless there is a time at least, and all ascend within kFarthestTimeS of 0.
+// Throws InvalidArgument unless there is a time at least, and all ascend within kFarthestTimeS of
+// 0.
 inline void check_times(const std::vector<double>& times_s) {
     if (times_s.empty()) throw InvalidArgument("times", "none", "must be one at least");
     for (std::size_t i = 0; i < times_s.size(); ++i) {
         if (!(std::abs(times_s[i]) <= kFarthestTimeS)) {
-            throw InvalidArgument("time (s)", fmt::format("{}", times_s[i]),
-                                  fmt::format("must be {:g} to {:g}", -kFarthestTimeS,
-                                              kFarthestTimeS));
+            throw InvalidArgument(
+                "time (s)", fmt::format("{}", times_s[i]),
+                fmt::format("must be {:g} to {:g}", -kFarthestTimeS, kFarthestTimeS));
         }
         if (i > 0 && times_s[i] <= times_s[i - 1]) {
             throw InvalidArgument("time (s)", fmt::format("{}", times_s[i]),

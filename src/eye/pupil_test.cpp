@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "aureole/base/error.h"
-#include "aureole/eye/ranges.h"
 #include "aureole/base/units.h"
+#include "aureole/eye/ranges.h"
 
 namespace aureole::eye {
 namespace {

@@ -43,7 +43,8 @@ ThesisFrames thesis_frames(std::int64_t frame) noexcept {
 std::int64_t thesis_frame_at(double time_s) noexcept {
     // n / 30 is not exact in binary.
     constexpr double kRounding = 1e-6;
-    return static_cast<std::int64_t>(std::floor(nearest_moment_s(time_s) * kThesisFramesPerSecond + kRounding));
+    return static_cast<std::int64_t>(
+        std::floor(nearest_moment_s(time_s) * kThesisFramesPerSecond + kRounding));
 }
 
 double thesis_pupil_mm(int page) noexcept { return kMeanPupilMm + kPupilSwingMm * swing(page); }

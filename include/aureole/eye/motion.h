@@ -54,8 +54,8 @@ class LivingEye {
   public:
     // `rest` gives everything that does not move, the lids between blinks, and what moves is put on
     // top of: fluctuations multiply pose.lens_scale, and lashes are never less closed than
-    // pose.lash_closure. Its pupil and the turns of its vitreous (pose.vitreous_*_deg) are replaced.
-    // `adaptation` is the luminance that the pupil answers to, damped already
+    // pose.lash_closure. Its pupil and the turns of its vitreous (pose.vitreous_*_deg) are
+    // replaced. `adaptation` is the luminance that the pupil answers to, damped already
     // (damped_luminance_cd_m2, `aureole meter`).
     // Throws InvalidArgument for values out of range.
     LivingEye(const Eye& rest, MotionSettings settings, LuminanceCurve adaptation);
@@ -63,8 +63,8 @@ class LivingEye {
     LivingEye(LivingEye&&) noexcept;
     LivingEye& operator=(LivingEye&&) noexcept;
 
-    // Continuous in time. Times may be negative; beyond kFarthestTimeS of 0 (ranges.h) the eye is as
-    // it is there.
+    // Continuous in time. Times may be negative; beyond kFarthestTimeS of 0 (ranges.h) the eye is
+    // as it is there.
     Moment at(double time_s) const noexcept;
 
   private:

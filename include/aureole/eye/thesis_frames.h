@@ -33,8 +33,8 @@ int thesis_ping_pong(std::int64_t step) noexcept;
 // The pages at a moment counted in frames. Pupil, gratings and lids go back and forth, particles
 // begin again: the whole repeats after kThesisRepeat frames.
 ThesisFrames thesis_frames(std::int64_t frame) noexcept;
-// The frame at a time: floor(30 t), so that frame n is there at n / 30 s. Times beyond kFarthestTimeS
-// of 0 (ranges.h) are taken as that.
+// The frame at a time: floor(30 t), so that frame n is there at n / 30 s. Times beyond
+// kFarthestTimeS of 0 (ranges.h) are taken as that.
 std::int64_t thesis_frame_at(double time_s) noexcept;
 
 // What the pages show. From page to page the pupil follows the rising half of a sine between the
