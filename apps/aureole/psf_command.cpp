@@ -129,7 +129,7 @@ void PsfCommand::check() {
     refuse(motion_options.squints() && motion_options.given("--squint") && eye_options.meters()
                ? "--squint"
                : "",
-           "lids close against light, and how bright it is nobody says: needs --adaptation");
+           "the luminance that lids close against is not known: needs --adaptation");
 }
 
 eye::Eye PsfCommand::eye_at_its_moment(const View& view, nlohmann::ordered_json& parameters) {
