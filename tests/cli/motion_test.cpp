@@ -143,6 +143,20 @@ TEST_F(Motion, GlareFadesWithTheLidsAndNeverJumps) {
     EXPECT_LT(darkest, 0.001);
 }
 
+// Of closed lids the kernel is that of their last opening, and a note says so.
+TEST_F(Motion, ClosedLidsHaveAKernel) {
+    const std::string psf = "psf -o k.exr --size 9 --scatter none --pupil 6 --blink .35 --time ";
+    const Outcome outcome = run(psf + ".428");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_TRUE(names_all(outcome.err, {"--time 0.428", "closed", "light_share"})) << outcome.err;
+    const Image closed = read("k.exr").image();
+    const double share = report(psf + ".428")["parameters"]["light_share"];
+    EXPECT_GT(share, 0);
+    EXPECT_LT(share, 0.002);
+    ASSERT_EQ(run(psf + ".43").exit_code, 0);
+    EXPECT_LT(largest_difference(closed, read("k.exr").image()), 0.01 * largest(closed));
+}
+
 // With --time a picture tells its own luminance, to lids too; with --fps nothing does.
 TEST_F(Motion, LidsSquintWhereTheLuminanceIsKnown) {
     write("bright.0001.exr", constant(24, 16, 3, 500));
