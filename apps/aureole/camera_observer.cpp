@@ -143,7 +143,7 @@ void CameraObserver::report(nlohmann::ordered_json& json) const {
         parameters["halation_index"] = spread_.halation.refractive_index;
         parameters["halation_backing"] = spread_.halation.backing;
     }
-    parameters["field_varying"] = field_.report();
+    field_.report(parameters);
     if (!field_report_.empty()) json["field_varying"] = field_report_;
     parameters.update(ghost_options_.report(flare_options_));
     if (!ghost_options_.any()) return;

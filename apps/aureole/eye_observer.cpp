@@ -8,6 +8,7 @@
 #include "aureole/color/rgb.h"
 #include "aureole/eye/eye_psf.h"
 #include "aureole/eye/field_error.h"
+#include "aureole/eye/field_needles.h"
 #include "aureole/eye/field_psf.h"
 #include "aureole/eye/metering.h"
 #include "aureole/eye/ranges.h"
@@ -65,10 +66,21 @@ std::optional<wave::VaryingPsf> EyeObserver::varying_psf(const View& display, co
     eye_ = options_.eye(*metered_cd_m2_, display);
     eye::FieldPsfOptions options;
     options.psf.spectral = options_.sampling();
-    if (field_.spacing_deg() > 0) options.spacing_deg = field_.spacing_deg();
-    options.rank = field_.rank();
-    wave::VaryingPsf psf = eye::eye_field_psf(eye_, data, options, &session_);
-    measure_field(psf, options);
+    wave::VaryingPsf psf;
+    if (field_.streaks()) {
+        if (field_.spacing_deg() > 0) options.spacing_deg = field_.spacing_deg();
+        options.rank = field_.rank();
+        psf = eye::eye_field_psf(eye_, data, options, &session_);
+        measure_field(psf, options);
+    } else {
+        psf.view = data;
+        psf.base = eye::eye_psf(eye_, wave::KernelGrid::full_reach(data), options.psf, &session_);
+    }
+    if (field_.needles()) {
+        eye::FieldNeedlesOptions needles;
+        needles.psf = options.psf;
+        eye::vary_needles(psf, eye_, needles, &session_);
+    }
     return psf;
 }
 
@@ -94,7 +106,7 @@ void EyeObserver::report(nlohmann::ordered_json& json) const {
     auto& parameters = json["parameters"];
     parameters["white_luminance_cd_m2"] = white_luminance_cd_m2_;
     parameters.update(options_.report(eye_, *metered_cd_m2_));
-    parameters["field_varying"] = field_.report();
+    field_.report(parameters);
     if (!field_report_.empty()) json["field_varying"] = field_report_;
 }
 

@@ -46,6 +46,7 @@ class EyeOptions {
     double pupil_mm(double metered_cd_m2, const View& view) const;
     double eyelid() const { return eyelid_; }
     int eyelashes() const { return eyelashes_; }
+    bool has_corona() const { return scatter_ != "none" && corona_contrast_.value_or(1) > 0; }
     double halo() const { return halo_.value_or(1); }
     double streaks() const { return streaks_.value_or(1); }
     // The model unless --pupil-model says otherwise.

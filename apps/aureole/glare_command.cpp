@@ -114,9 +114,10 @@ void GlareCommand::check() {
     spread.check();
     field_varying.check();
     if (field_varying.on()) {
-        const auto alone = [](const std::string& option) {
+        const auto alone = [&](const std::string& option) {
             if (!option.empty()) {
-                throw InvalidArgument("--field-varying: cannot be combined with " + option);
+                throw InvalidArgument(field_varying.first_given() + ": cannot be combined with " +
+                                      option);
             }
         };
         alone(psf_file.empty() ? "" : "--psf");
@@ -138,6 +139,7 @@ void GlareCommand::check_camera() {
     refuse(view.white_luminance_given() ? "--white-luminance" : "",
            "matters for the eye's pupil only: leave it out with --observer camera");
     refuse(book_file.empty() ? "" : "--book", "needs --observer eye");
+    refuse(field_varying.needles() ? "--needles-by-position" : "", "needs --observer eye");
     refuse(preset == "vivid" || preset == "thesis" ? "--preset " + preset : "",
            "needs --observer eye");
     const Passes passes = spread.passes();
@@ -161,6 +163,8 @@ void GlareCommand::check_eye() {
     }
     eye.set_preset(preset == "vivid" ? "vivid" : "physical");
     app::check_eye(eye, motion);
+    refuse(field_varying.needles() && !eye.has_corona() ? "--needles-by-position" : "",
+           "has no effect without a corona: needs --scatter and a --corona-contrast above 0");
     refuse(book_file.empty() || motion.alive() ? "" : "--book " + book_file,
            "is for an eye that moves: needs --time or --fps");
     // The first picture that a run happens to render must not decide for the others.
@@ -178,7 +182,7 @@ void GlareCommand::check_eye() {
                 throw InvalidArgument("--source-spectrum rgb: cannot be combined with " + option);
             }
         };
-        alone(field_varying.on() ? "--field-varying" : "");
+        alone(field_varying.first_given());
         alone(spread.method == "fft" || spread.method == "direct" ? ""
                                                                   : "--method " + spread.method);
         alone(spread.surround == "same" ? "--surround same" : "");
@@ -207,7 +211,7 @@ void GlareCommand::check_thesis() {
         }
     };
     alone(psf_file.empty() ? "" : "--psf");
-    alone(field_varying.on() ? "--field-varying" : "");
+    alone(field_varying.first_given());
     alone(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name);
     alone(book_file.empty() ? "" : "--book");
     alone(spread.surround == "dark" ? "" : "--surround " + spread.surround);
