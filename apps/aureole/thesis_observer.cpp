@@ -87,8 +87,8 @@ void ThesisObserver::note_clamped(double pupil_mm) {
     constexpr double kRoundingMm = 0.05;
     if (pupil_mm > narrowest_mm - kRoundingMm && pupil_mm < widest_mm + kRoundingMm) return;
     session_.note(fmt::format(
-        "a pupil of {:.2g} mm: --preset thesis has {:.2g} to {:.2g} mm, and shows the nearest",
-        pupil_mm, narrowest_mm, widest_mm));
+        "--preset thesis: pupils beyond its {:.2g} to {:.2g} mm are shown by its nearest page",
+        narrowest_mm, widest_mm));
 }
 
 Spreading ThesisObserver::spreading(const View& /*display*/, const View& data) {

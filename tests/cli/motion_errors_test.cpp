@@ -97,7 +97,7 @@ TEST_F(MotionErrors, NoteWhatIsBeyondATableOrABook) {
     notes(eye + "--adaptation a.csv --time -1", {"a.csv", "begins at 0 s"});
     notes(eye + "--adaptation 10 --motion h.csv --time 1", {"h.csv", "begins at 2 s"});
     EXPECT_EQ(notes(eye + "--adaptation a.csv --time .5", {}), "");
-    notes(kGlare + "--preset thesis --pupil 9", {"9 mm", "1.9 to 7.9 mm"});
+    notes(kGlare + "--preset thesis --pupil 9", {"--preset thesis", "1.9 to 7.9 mm"});
 }
 
 // As spreadsheets write them.
