@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "aureole/color/rgb.h"
@@ -10,16 +11,19 @@
 #include "aureole/eye/field_needles.h"
 #include "aureole/eye/field_psf.h"
 #include "aureole/eye/metering.h"
+#include "aureole/eye/ranges.h"
 #include "kernel_file.h"
 #include "output_options.h"
 
 namespace aureole::app {
+
 double metered_cd_m2(const io::Picture& picture, double white_luminance_cd_m2) {
     const double stored{picture.float_attribute("aureole:adaptation_cd_m2").value_or(-1.0F)};
-    return std::isfinite(stored) && stored >= 0
-               ? stored
-               : eye::mean_luminance(over_display_window(picture.color(), picture)) *
-                     white_luminance_cd_m2;
+    const double seen = std::isfinite(stored) && stored >= 0
+                            ? stored
+                            : eye::mean_luminance(over_display_window(picture.color(), picture)) *
+                                  white_luminance_cd_m2;
+    return std::min(seen, eye::kBrightestCdM2);
 }
 
 Spreading spreading_of(const eye::Eye& eye, Passes passes, const View& data,
@@ -29,12 +33,12 @@ Spreading spreading_of(const eye::Eye& eye, Passes passes, const View& data,
     options.spectral = sampling;
     Spreading result;
     if (passes == Passes::kBoth || passes == Passes::kStreaks) {
-        result.streaks = eye::streaks_psf(eye, grid, options, &session);
+        result.streaks = shared(eye::streaks_psf(eye, grid, options, &session));
     }
     if (passes == Passes::kStreaks) return result;
     eye::Eye behind_lashes = eye;
     if (passes != Passes::kOne) behind_lashes.streaks = 0;
-    result.rest = eye::eye_psf(behind_lashes, grid, options, &session);
+    result.rest = shared(eye::eye_psf(behind_lashes, grid, options, &session));
     return result;
 }
 
@@ -112,7 +116,7 @@ View KernelObserver::view_of(const io::Picture& picture) {
 }
 
 Spreading KernelObserver::spreading(const View& /*display*/, const View& data) {
-    return {.streaks = std::nullopt, .rest = read_kernel(file_, data)};
+    return {.streaks = nullptr, .rest = shared(read_kernel(file_, data))};
 }
 
 void KernelObserver::report(nlohmann::ordered_json& json) const {

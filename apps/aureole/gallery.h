@@ -27,7 +27,6 @@ struct Panel {
     eye::Eye eye;
     std::string preset = "physical";
     double light_share = 1;  // what the lids let through
-    bool closed = false;     // they let nothing through that could spread
 };
 
 struct Content {

@@ -75,14 +75,12 @@ RenderedPanel PanelRenderer::render(const Panel& panel) {
     PanelEnergy& energy = rendered.energy;
     energy.in = energy_of(in, panel.view, solid_angles);
     Image out = in;
-    if (panel.glare && !panel.closed) {
+    if (panel.glare) {
         glare::Glare& glare = glare_for(eye, panel.view);
         glare.apply(in, out);
         const glare::Energy spread = glare.energy(in, out);
         energy.from_surround = spread.from_surround;
         energy.off_picture = panel.light_share * spread.off_picture;
-    }
-    if (panel.glare) {
         const auto share = static_cast<float>(panel.light_share);
         const std::size_t values = 3 * out.pixels();
         std::for_each_n(out.plane(0), values, [&](float& value) { value *= share; });
