@@ -164,7 +164,7 @@ void run(double spacing_deg, int positions, bool with_storage) {
         glare::Glare one(view, 3, varying.base);
         glare::VaryingGlare glare(3, varying);
         const auto [single, all] = best_of(one, glare);
-        const eye::FieldError error = eye::field_error(eye, varying, options.psf, positions);
+        const wave::FieldError error = eye::field_error(eye, varying, options.psf, positions);
         fmt::print(
             "{:10} cost {:5.2f} convolutions ({:.1f} of {:.1f} ms), error {:.2f} % "
             "(mean of ratios {:.2f} %, worst {:.1f} %; {} positions), {:.1f} MB\n",

@@ -97,10 +97,11 @@ std::optional<wave::VaryingPsf> CameraObserver::varying_psf(const View& /*displa
     options.rank = field_.rank();
     wave::VaryingPsf psf = lens::field_starburst(
         camera_.lens, camera_.iris, camera_.entrance_pupil_mm(), data, options, &session_);
-    field_report_ = {{"spacing_deg", options.spacing_deg},
-                     {"rank", options.rank},
-                     {"kernels", psf.parts.front().halves.size()},
-                     {"bytes", fourier::bytes(psf.parts)}};
+    const wave::FieldError error = lens::field_starburst_error(
+        camera_.lens, camera_.iris, camera_.entrance_pupil_mm(), psf, options, kHeldOutPositions);
+    session_.note(
+        fmt::format("stars over the field: {:.1f} % from those of each position", 100 * error.l1));
+    field_report_ = FieldVaryingOption::report(options.spacing_deg, options.rank, psf, error);
     return psf;
 }
 

@@ -86,20 +86,10 @@ std::optional<wave::VaryingPsf> EyeObserver::varying_psf(const View& display, co
 
 // The blend against streaks computed for positions of their own.
 void EyeObserver::measure_field(const wave::VaryingPsf& psf, const eye::FieldPsfOptions& options) {
-    constexpr int kPositions = 16;
-    const eye::FieldError error = eye::field_error(eye_, psf, options.psf, kPositions);
+    const wave::FieldError error = eye::field_error(eye_, psf, options.psf, kHeldOutPositions);
     session_.note(fmt::format("streaks over the field: {:.1f} % from those of each position",
                               100 * error.l1));
-    std::size_t kernels = 0;
-    for (const auto& part : psf.parts) kernels += part.halves.size();
-    field_report_ = {{"spacing_deg", options.spacing_deg},
-                     {"rank", options.rank},
-                     {"kernels", kernels},
-                     {"bytes", fourier::bytes(psf.parts)},
-                     {"held_out_positions", error.positions},
-                     {"error", error.l1},
-                     {"error_mean_of_ratios", error.mean},
-                     {"error_worst", error.worst}};
+    field_report_ = FieldVaryingOption::report(options.spacing_deg, options.rank, psf, error);
 }
 
 void EyeObserver::report(nlohmann::ordered_json& json) const {

@@ -39,6 +39,21 @@ void FieldVaryingOption::report(nlohmann::ordered_json& parameters) const {
     parameters["needles_by_position"] = needles_;
 }
 
+nlohmann::ordered_json FieldVaryingOption::report(double spacing_deg, int rank,
+                                                  const wave::VaryingPsf& psf,
+                                                  const wave::FieldError& error) {
+    std::size_t kernels = 0;
+    for (const auto& part : psf.parts) kernels += part.halves.size();
+    return {{"spacing_deg", spacing_deg},
+            {"rank", rank},
+            {"kernels", kernels},
+            {"bytes", fourier::bytes(psf.parts)},
+            {"held_out_positions", error.positions},
+            {"error", error.l1},
+            {"error_mean_of_ratios", error.mean},
+            {"error_worst", error.worst}};
+}
+
 void FieldVaryingOption::check() {
     on_ = text_ != "off";
     if (!on_ || text_ == "on") return;

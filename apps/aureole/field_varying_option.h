@@ -6,7 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "aureole/wave/field_error.h"
+#include "aureole/wave/varying_psf.h"
+
 namespace aureole::app {
+
+// Positions at which each run compares what is blended with what is right there.
+inline constexpr int kHeldOutPositions = 16;
 
 class FieldVaryingOption {
   public:
@@ -26,6 +32,9 @@ class FieldVaryingOption {
     int rank() const { return rank_; }
     // Adds them to the parameters in force.
     void report(nlohmann::ordered_json& parameters) const;
+    // What the nodes are, what they hold, and how wrong they are.
+    static nlohmann::ordered_json report(double spacing_deg, int rank, const wave::VaryingPsf& psf,
+                                         const wave::FieldError& error);
 
   private:
     std::string text_ = "off";

@@ -30,11 +30,6 @@ constexpr int kMostSamples = 16;  // in either direction
 // How the last picture was done; the choice where there was one, or an error.
 void report_method(const glare::MethodReport& report, nlohmann::ordered_json& json) {
     json["method"] = glare::name_of(report.method);
-    if (report.raster.scale > 1) {
-        json["raster"] = {{"scale", report.raster.scale},
-                          {"near_radius", report.raster.near_radius},
-                          {"error_bound", report.raster.error}};
-    }
     if (report.method == glare::Method::kFft && report.reason == Reason::kAsked) return;
     if (report.method == glare::Method::kDirect) return;
     auto& choice = json["method_choice"];
@@ -50,6 +45,14 @@ void report_method(const glare::MethodReport& report, nlohmann::ordered_json& js
         }
         if (candidate.actual_seconds > 0) choice["actual_seconds"][name] = candidate.actual_seconds;
     }
+}
+
+void report_raster(const glare::MethodReport& report, const char* name,
+                   nlohmann::ordered_json& json) {
+    if (report.raster.scale == 1) return;
+    json[name] = {{"scale", report.raster.scale},
+                  {"near_radius", report.raster.near_radius},
+                  {"error_bound", report.raster.error}};
 }
 
 void scale(Image& image, double factor) {
@@ -263,6 +266,9 @@ void PictureJob::process(const FrameFiles& files) {
         session_.check_interrupt();
     }
     session_.timed("write", [&] { write(files, picture); });
+    if (const glare::Glare* glare = prepared_->chosen()) {
+        ++frames_by_method_[std::string(glare::name_of(glare->last().method))];
+    }
 }
 
 void PictureJob::process(const std::vector<FrameFiles>& list) {
@@ -301,13 +307,17 @@ void PictureJob::write(const FrameFiles& files, const io::Picture& picture) {
 
 std::string PictureJob::report() {
     auto& json = session_.json();
-    if (energy_.added > kMuchAdded * energy_.in) {
+    if (energy_.added > 0 && energy_.added > kMuchAdded * energy_.in) {
         session_.note(
             fmt::format("glare adds {:.2g} times the light of the picture (--gain, now {:g}, or "
                         "--exposure scale it)",
                         energy_.added / energy_.in, spread_.gain));
     }
     const Prepared& last = *prepared_;
+    if (spread_.method == "hybrid" && frames_by_method_.contains("fft")) {
+        session_.note(
+            "--method hybrid: all by fft: the kernel is too small or too rough for a far part");
+    }
     json["outputs"] = written_;
     json["energy"] = {
         {"in", energy_.in}, {"out", energy_.out}, {"off_picture", energy_.off_picture}};
@@ -315,7 +325,12 @@ std::string PictureJob::report() {
     if (energy_.added != 0) json["energy"]["added"] = energy_.added;
     if (energy_.blocked != 0) json["energy"]["blocked"] = energy_.blocked;
     if (has_ghosts_) json["energy"]["ghosts"] = energy_.ghosts;
-    if (last.chosen() != nullptr) report_method(last.chosen()->last(), json);
+    if (last.chosen() != nullptr) {
+        report_method(last.chosen()->last(), json);
+        report_raster(last.chosen()->last(), "raster", json);
+    }
+    if (last.streaks && last.rest) report_raster(last.rest->last(), "bloom_raster", json);
+    if (frames_by_method_.size() > 1) json["frames_by_method"] = frames_by_method_;
     if (last.varying) json["method"] = "nodes";
     json["nonfinite_pixels"] = nonfinite_pixels_;
     json["psfs_made"] = psfs_made_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -95,6 +96,7 @@ class PictureJob {
     double exposure_ev_ = 0;  // of the last picture, for the report
     std::size_t nonfinite_pixels_ = 0;
     int psfs_made_ = 0;
+    std::map<std::string, int> frames_by_method_;
     std::vector<std::string> written_;
 };
 

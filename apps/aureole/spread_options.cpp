@@ -78,7 +78,7 @@ void SpreadSettings::check() const {
     const bool bloom = passes() == Passes::kBoth || passes() == Passes::kBloom;
     if (resolution != "full" && method != "fft" && !bloom) {
         throw InvalidArgument("--resolution", resolution,
-                              "must be full with --method " + method + ": others need fft");
+                              "must be full with --method " + method + ": it is for what fft does");
     }
     if (method != "fft" && method != "direct") return;
     for (const CLI::Option* option : cluster_options_) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "aureole/base/error.h"
@@ -25,9 +24,14 @@ void check_field_of(const View& view) {
     for (const double x : {0.0, static_cast<double>(view.width)}) {
         for (const double y : {0.0, static_cast<double>(view.height)}) {
             const FieldPosition corner = field_position(view, x, y);
-            require_deg("field of view",
-                        2 * std::max(std::abs(corner.x_deg), std::abs(corner.y_deg)), 0,
-                        kMostFieldDeg);
+            const double across_deg = 2 * std::abs(corner.x_deg);
+            const double up_deg = 2 * std::abs(corner.y_deg);
+            if (across_deg <= kMostFieldDeg && up_deg <= kMostFieldDeg) continue;
+            throw InvalidArgument("field of view",
+                                  fmt::format("{:.4g} x {:.4g} deg", across_deg, up_deg),
+                                  fmt::format("must be at most {:g} deg wide and high where glare "
+                                              "varies over it",
+                                              kMostFieldDeg));
         }
     }
 }

@@ -4,7 +4,6 @@
 
 #include "aureole/base/parallel.h"
 #include "glare/raster.h"
-#include "glare/sprite_crop.h"
 
 namespace aureole::glare {
 namespace {
@@ -33,11 +32,10 @@ FarLayer::Plan FarLayer::plan(const ConstImageView& light, const float* weights,
     options.error = cluster_error;
     options.dim_limit = limits.dim;
     options.full_limit = limits.full;
-    const sources::Clusters found =
-        sources::find_clusters(light, weights, roughness_, options, &measured);
+    const sources::Clusters& found = finder_.find(light, weights, roughness_, options, &measured);
     // Coarse pixels stand for scale^2 of the picture.
     const double area = scale_ * scale_;
-    const double level = crop_level(found.clusters, layer_.profile(), most_lost / area);
+    const double level = ends_.level(found.clusters, layer_.profile(), most_lost / area);
     const SpriteLayer::Made made = layer_.make(found.clusters, level);
     Plan plan;
     plan.sprites = found.clusters.size();

@@ -9,6 +9,7 @@
 #include "aureole/image/image.h"
 #include "aureole/sources/brightness_histogram.h"
 #include "glare/far_kernel.h"
+#include "glare/sprite_crop.h"
 #include "glare/sprite_layer.h"
 
 namespace aureole::glare {
@@ -56,6 +57,8 @@ class FarLayer {
     int scale_;
     double error_;
     sources::KernelRoughness roughness_;
+    sources::ClusterFinder finder_;
+    SpriteEnds ends_;
     SpriteLayer layer_;
     Image canvas_;
     std::vector<Buffer> scratch_;

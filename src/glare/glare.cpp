@@ -66,7 +66,8 @@ void check(const View& view, int channels, const wave::Psf& psf, const GlareOpti
     if (options.resolution != Resolution::kFull && options.method != Method::kFft) {
         throw InvalidArgument("resolution", std::string(name_of(options.resolution)),
                               "must be full with the method " +
-                                  std::string(name_of(options.method)) + ": others need fft");
+                                  std::string(name_of(options.method)) +
+                                  ": it is for what fft does");
     }
     if (psf.grid.projection != view.projection ||
         std::abs(psf.grid.pitch_deg / view.pitch_deg - 1) > 1e-3) {

@@ -10,10 +10,22 @@
 
 namespace aureole::glare {
 
-// `most_lost`: of the sum over clusters and channels of |energy| that fades out with their radius.
-// 0 if nothing may be lost.
-double crop_level(const std::vector<sources::Cluster>& clusters, const KernelProfile& profile,
-                  double most_lost);
+class SpriteEnds {
+  public:
+    // `most_lost`: of the sum over clusters and channels of |energy| that fades out with their
+    // radius. 0 if nothing may be lost. Allocates in the first call only.
+    double level(const std::vector<sources::Cluster>& clusters, const KernelProfile& profile,
+                 double most_lost);
+
+  private:
+    // Clusters of nearly the same energy, to be looked up together.
+    struct EnergyBin {
+        double least = 0;   // energy of the channel with most
+        double amount = 0;  // sum over clusters and channels
+    };
+    void fill(const std::vector<sources::Cluster>& clusters);
+    std::vector<EnergyBin> bins_;
+};
 
 // Distance from the centroid, in pixels, from which on nothing of the cluster reaches `level`.
 int crop_radius(const sources::Cluster& cluster, const KernelProfile& profile, double level);

@@ -35,7 +35,7 @@ class SpriteLayer {
     int margin() const { return margin_; }
     int scale() const { return scale_; }
 
-    // Replaces the sprites. `level`: of crop_level().
+    // Replaces the sprites. `level`: of SpriteEnds.
     struct Made {
         double energy_cut = 0;
         SpriteWork work;

@@ -7,7 +7,6 @@
 #include "aureole/base/parallel.h"
 #include "aureole/base/units.h"
 #include "aureole/sources/brightness.h"
-#include "glare/sprite_crop.h"
 
 namespace aureole::glare {
 namespace {
@@ -97,8 +96,8 @@ SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float
     cluster_options.error = clusters_share;
     cluster_options.dim_limit = dim_limit_;
     cluster_options.full_limit = full_limit_;
-    const sources::Clusters found =
-        sources::find_clusters(light, weights, roughness_, cluster_options, &measured);
+    const sources::Clusters& found =
+        finder_.find(light, weights, roughness_, cluster_options, &measured);
     Plan plan;
     SpriteReport& report = plan.report;
     report.bright_pixels = found.bright_pixels;
@@ -107,7 +106,7 @@ SpritePainter::Plan SpritePainter::plan(const ConstImageView& light, const float
     report.energy_left = found.energy_left;
     const double most_lost = kShares.crop * options_.error * report.energy / layers;
     const SpriteLayer::Made made =
-        near_->make(found.clusters, crop_level(found.clusters, near_->profile(), most_lost));
+        near_->make(found.clusters, ends_.level(found.clusters, near_->profile(), most_lost));
     report.energy_cut = made.energy_cut;
     report.error_bound = found.error_bound + made.energy_cut + 2 * report.energy_left;
     plan.near = made.work;

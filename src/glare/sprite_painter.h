@@ -8,6 +8,7 @@
 #include "aureole/glare/sprites.h"
 #include "aureole/sources/brightness_histogram.h"
 #include "glare/far_layer.h"
+#include "glare/sprite_crop.h"
 #include "glare/sprite_kernel.h"
 #include "glare/sprite_layer.h"
 
@@ -83,6 +84,8 @@ class SpritePainter {
     int core_radius_ = 0;
     PaddedKernel core_;
     sources::KernelRoughness roughness_;
+    sources::ClusterFinder finder_;
+    SpriteEnds ends_;
     std::optional<SpriteLayer> near_;
     std::optional<FarLayer> far_;
     double typical_area_ = 0;

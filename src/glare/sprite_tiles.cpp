@@ -47,10 +47,10 @@ void SpriteTiles::sort(const std::vector<Sprite>& sprites) {
     }
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     order_.resize(first_.back());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    next_.assign(first_.begin(), first_.end() - 1);
     for (std::size_t i = 0; i < sprites.size(); ++i) {
         for_each_tile_of(sprites[i], [&](std::size_t tile) {
-            order_[next[tile]++] = static_cast<std::uint32_t>(i);
+            order_[next_[tile]++] = static_cast<std::uint32_t>(i);
         });
     }
 }

@@ -39,6 +39,7 @@ class SpriteTiles {
     std::size_t rows_;
     std::vector<std::size_t> first_;  // in order_, per tile, and the end
     std::vector<std::uint32_t> order_;
+    std::vector<std::size_t> next_;  // while sorting
 };
 
 }  // namespace aureole::glare

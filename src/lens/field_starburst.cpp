@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "aureole/base/error.h"
+#include "aureole/base/random.h"
 #include "aureole/wave/field_nodes.h"
 #include "lens/starburst_behind.h"
 
@@ -37,6 +38,39 @@ std::array<double, 2> direction(const View& view, double x, double y) {
         view.projection == Projection::kPerspective || angle == 0 ? 1 : std::tan(angle) / angle;
     return {stretch * u, stretch * v};
 }
+
+// Stars within the reach, as lights at pixel positions make them.
+class NearStars {
+  public:
+    NearStars(const Lens& lens, const Iris& iris, double pupil_diameter_mm, const View& view,
+              const FieldStarburstOptions& options)
+        : lens_(lens),
+          iris_(iris),
+          pupil_diameter_mm_(pupil_diameter_mm),
+          view_(view),
+          options_(options),
+          grid_(wave::grid_within(view, options.reach_deg)),
+          window_(wave::radial_window(grid_, options.reach_deg)) {}
+
+    const Image& window() const { return window_; }
+
+    Image at(double x, double y) const {
+        const auto [tan_x, tan_y] = direction(view_, x, y);
+        const std::optional<wave::Shape> outline = pupil_outline(lens_, iris_, tan_x, tan_y);
+        const wave::Psf star = starburst_behind(iris_, pupil_diameter_mm_, grid_, options_.psf,
+                                                {nullptr, outline ? &*outline : nullptr});
+        return wave::windowed(star.kernel, window_);
+    }
+
+  private:
+    const Lens& lens_;
+    const Iris& iris_;
+    double pupil_diameter_mm_;
+    const View& view_;
+    const FieldStarburstOptions& options_;
+    wave::KernelGrid grid_;
+    Image window_;
+};
 
 // The star of the axis beyond the reach, as a kernel of unit energy.
 wave::Psf far_part(wave::Psf axis, const Image& window) {
@@ -71,22 +105,17 @@ wave::VaryingPsf field_starburst(const Lens& lens, const Iris& iris, double pupi
                                  const View& view, const FieldStarburstOptions& options,
                                  Progress* progress) {
     check(options);
-    const wave::KernelGrid grid = wave::grid_within(view, options.reach_deg);
-    const Image window = wave::radial_window(grid, options.reach_deg);
+    const NearStars stars(lens, iris, pupil_diameter_mm, view, options);
     wave::VaryingPsf result;
     result.view = view;
     result.base = far_part(
         starburst_psf(iris, pupil_diameter_mm, wave::KernelGrid::full_reach(view), options.psf),
-        window);
+        stars.window());
 
     const wave::NodePlaces nodes = wave::node_places(view, options.spacing_deg);
     fourier::KernelNodes part{nodes.columns, nodes.rows, {}, {}};
     for (const auto& place : nodes.places) {
-        const auto [tan_x, tan_y] = direction(view, place.x, place.y);
-        const std::optional<wave::Shape> outline = pupil_outline(lens, iris, tan_x, tan_y);
-        const wave::Psf star = starburst_behind(iris, pupil_diameter_mm, grid, options.psf,
-                                                {nullptr, outline ? &*outline : nullptr});
-        part.halves.push_back(fourier::right_half(wave::windowed(star.kernel, window)));
+        part.halves.push_back(fourier::right_half(stars.at(place.x, place.y)));
         if (progress == nullptr) continue;
         progress->report("stars over the field", static_cast<double>(part.halves.size()) /
                                                      static_cast<double>(nodes.places.size()));
@@ -95,6 +124,26 @@ wave::VaryingPsf field_starburst(const Lens& lens, const Iris& iris, double pupi
     result.parts.push_back(options.rank == 0 ? std::move(part)
                                              : principal_components(part, options.rank));
     return result;
+}
+
+wave::FieldError field_starburst_error(const Lens& lens, const Iris& iris, double pupil_diameter_mm,
+                                       const wave::VaryingPsf& psf,
+                                       const FieldStarburstOptions& options, int positions) {
+    check(options);
+    if (positions < 1 || positions > 10000) {
+        throw InvalidArgument("positions", fmt::format("{}", positions), "must be 1 to 10000");
+    }
+    const View& view = psf.view;
+    const NearStars stars(lens, iris, pupil_diameter_mm, view, options);
+    Random random(1, 0);
+    wave::FieldErrorSum error;
+    for (int i = 0; i < positions; ++i) {
+        const int x = static_cast<int>(random.uniform() * view.width);
+        const int y = static_cast<int>(random.uniform() * view.height);
+        error.add(fourier::right_half(fourier::kernel_at(psf.parts, view.width, view.height, x, y)),
+                  stars.at(x + 0.5, y + 0.5), false);
+    }
+    return error.error();
 }
 
 }  // namespace aureole::lens

@@ -119,6 +119,25 @@ TEST(FieldStarburst, HasUnitEnergyEverywhere) {
     }
 }
 
+TEST(FieldStarburst, ErrsLessWithMoreNodes) {
+    const View view = View::from_fov(81, 61, 30, Projection::kPerspective);
+    const Lens lens(shipped_lens("biotar"), {.f_number = 1.4});
+    const double pupil_mm = lens.efl_mm() / lens.f_number();
+    const auto error = [&](double spacing_deg) {
+        FieldStarburstOptions options = small();
+        options.spacing_deg = spacing_deg;
+        const wave::VaryingPsf psf = field_starburst(lens, Iris(), pupil_mm, view, options);
+        return field_starburst_error(lens, Iris(), pupil_mm, psf, options, 12);
+    };
+    const wave::FieldError coarse = error(15);
+    const wave::FieldError fine = error(4);
+    EXPECT_EQ(coarse.positions, 12);
+    EXPECT_GT(coarse.l1, 0.01);
+    EXPECT_LT(fine.l1, 0.6 * coarse.l1);
+    EXPECT_GE(fine.worst, fine.mean);
+    EXPECT_THROW(field_starburst_error(lens, Iris(), pupil_mm, {}, small(), 0), InvalidArgument);
+}
+
 // Edges scatter across themselves: the two long sides of a cat's eye send light along the radius of
 // the picture, its corners next to none across it.
 TEST(FieldStarburst, SpreadsAlongTheRadiusOffTheAxis) {

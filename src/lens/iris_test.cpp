@@ -213,6 +213,7 @@ TEST(Occluder, SpansItsDiameterAndIsClearBeyond) {
     EXPECT_EQ(occluder.transmission(0, -1e9F, 3), 1);
     EXPECT_THROW(Occluder(image, 0), InvalidArgument);
     EXPECT_THROW(Occluder(ConstImageView{}, 10), InvalidArgument);
+    EXPECT_THROW(Occluder(Image(4, 4, 1), 10), InvalidArgument);  // black
 }
 
 TEST(Occluder, LargeFootprintAverages) {

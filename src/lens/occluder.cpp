@@ -15,6 +15,10 @@ Occluder::Occluder(const ConstImageView& transmission, double diameter_mm)
                               "must be positive and finite");
     }
     pyramid_ = transmission_pyramid(transmission_of(transmission, "occluder picture"), 1);
+    const float* const first = image().plane(0);
+    if (std::none_of(first, first + image().pixels(), [](float t) { return t > 0; })) {
+        throw InvalidArgument("occluder picture", "all black", "must let some light through");
+    }
     pixels_per_mm_ = std::min(transmission.width, transmission.height) / diameter_mm;
 }
 

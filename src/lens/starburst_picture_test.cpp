@@ -188,7 +188,10 @@ TEST(Starburst, SaysWhatIsWrong) {
     EXPECT_THROW(starburst_psf(Iris(), 5, {30, 31, 0.02, Projection::kPerspective}),
                  InvalidArgument);
     EXPECT_THROW(starburst_psf(Iris(), 5, {31, 31, 0, Projection::kPerspective}), InvalidArgument);
-    const Occluder opaque(Image(8, 8, 1).view(), 10);
+    // Open in a corner that is not before the pupil.
+    Image picture(64, 64, 1);
+    picture.at(0, 0) = 1;
+    const Occluder opaque(picture.view(), 10);
     EXPECT_THROW(starburst_psf(Iris(), 5, grid, {.samples = 256}, &opaque), InvalidArgument);
 }
 

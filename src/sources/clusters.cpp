@@ -50,8 +50,10 @@ void check(const ConstImageView& light, const ClusterOptions& options) {
 // The clusters of one block of max_side x max_side pixels.
 class BlockSearch {
   public:
-    BlockSearch(const KernelRoughness& roughness, const ClusterOptions& options)
-        : roughness_(roughness), options_(options) {}
+    void set(const KernelRoughness& roughness, const ClusterOptions& options) {
+        roughness_ = roughness;
+        options_ = options;
+    }
 
     void load(const ConstImageView& light, const float* weights, int x0, int y0) {
         x0_ = x0;
@@ -151,43 +153,54 @@ class BlockSearch {
         found.error_bound += bound;
     }
 
-    const KernelRoughness& roughness_;
-    const ClusterOptions& options_;
+    KernelRoughness roughness_;
+    ClusterOptions options_;
     BlockEnergies block_;
     int x0_ = 0;
     int y0_ = 0;
 };
 
+// Memory of one thread.
+struct Scratch {
+    BlockSearch search;
+    std::vector<char> bright;    // blocks of a strip
+    std::vector<float> largest;  // channel of each pixel of a row
+};
+
 // Which blocks of the strip of max_side rows from y0 on have bright pixels: most have none.
-std::vector<char> bright_blocks(const ConstImageView& light, int y0,
-                                const ClusterOptions& options) {
+void find_bright_blocks(const ConstImageView& light, int y0, const ClusterOptions& options,
+                        Scratch& scratch) {
     const int side = options.max_side;
-    std::vector<char> bright(static_cast<std::size_t>((light.width + side - 1) / side), 0);
-    std::vector<float> largest(static_cast<std::size_t>(light.width));
+    scratch.largest.resize(static_cast<std::size_t>(light.width));
+    float* const largest = scratch.largest.data();
     for (int y = y0; y < std::min(light.height, y0 + side); ++y) {
-        largest_channel_row(light, y, largest.data());
-        if (!any_above(largest.data(), light.width, options.dim_limit)) continue;
-        for (std::size_t block = 0; block < bright.size(); ++block) {
+        largest_channel_row(light, y, largest);
+        if (!any_above(largest, light.width, options.dim_limit)) continue;
+        for (std::size_t block = 0; block < scratch.bright.size(); ++block) {
             const int x = static_cast<int>(block) * side;
-            if (any_above(largest.data() + x, std::min(side, light.width - x), options.dim_limit)) {
-                bright[block] = 1;
+            if (any_above(largest + x, std::min(side, light.width - x), options.dim_limit)) {
+                scratch.bright[block] = 1;
             }
         }
     }
-    return bright;
 }
 
-std::vector<char> bright_blocks(const BrightnessHistogram& measured, int width, int y0,
-                                const ClusterOptions& options) {
+void find_bright_blocks(const BrightnessHistogram& measured, int y0, const ClusterOptions& options,
+                        Scratch& scratch) {
     const int side = options.max_side;
-    std::vector<char> bright(static_cast<std::size_t>((width + side - 1) / side), 0);
-    for (std::size_t block = 0; block < bright.size(); ++block) {
+    for (std::size_t block = 0; block < scratch.bright.size(); ++block) {
         const int x0 = static_cast<int>(block) * side;
         if (measured.may_be_above(options.dim_limit, x0, y0, x0 + side, y0 + side)) {
-            bright[block] = 1;
+            scratch.bright[block] = 1;
         }
     }
-    return bright;
+}
+
+void clear(Clusters& clusters) {
+    std::vector<Cluster> kept = std::move(clusters.clusters);
+    kept.clear();
+    clusters = {};
+    clusters.clusters = std::move(kept);
 }
 
 // Sum of |light| * weight over the channels of rows [first, end).
@@ -211,40 +224,64 @@ double strip_energy(const ConstImageView& light, const float* weights, int first
 
 }  // namespace
 
-Clusters find_clusters(const ConstImageView& light, const float* weights,
-                       const KernelRoughness& roughness, const ClusterOptions& options,
-                       const BrightnessHistogram* measured) {
+struct ClusterFinder::Impl {
+    std::vector<Scratch> scratch{static_cast<std::size_t>(max_workers())};
+    std::vector<Clusters> strips;
+    Clusters all;
+};
+
+ClusterFinder::ClusterFinder() : impl_(std::make_unique<Impl>()) {}
+ClusterFinder::~ClusterFinder() = default;
+ClusterFinder::ClusterFinder(ClusterFinder&&) noexcept = default;
+ClusterFinder& ClusterFinder::operator=(ClusterFinder&&) noexcept = default;
+
+const Clusters& ClusterFinder::find(const ConstImageView& light, const float* weights,
+                                    const KernelRoughness& roughness, const ClusterOptions& options,
+                                    const BrightnessHistogram* measured) {
     check(light, options);
     const int side = options.max_side;
     const int columns = (light.width + side - 1) / side;
     const int rows = (light.height + side - 1) / side;
-    std::vector<Clusters> found(static_cast<std::size_t>(rows));
-    parallel_for(found.size(), [&](std::size_t row, int) {
+    for (Scratch& scratch : impl_->scratch) scratch.search.set(roughness, options);
+    std::vector<Clusters>& strips = impl_->strips;
+    strips.resize(static_cast<std::size_t>(rows));
+    parallel_for(strips.size(), [&](std::size_t row, int worker) {
+        Scratch& scratch = impl_->scratch[static_cast<std::size_t>(worker)];
+        Clusters& found = strips[row];
+        clear(found);
         const int y0 = static_cast<int>(row) * side;
-        const std::vector<char> bright = measured == nullptr
-                                             ? bright_blocks(light, y0, options)
-                                             : bright_blocks(*measured, light.width, y0, options);
-        if (measured != nullptr && std::count(bright.begin(), bright.end(), 1) == 0) return;
-        const auto search = std::make_unique<BlockSearch>(roughness, options);
+        scratch.bright.assign(static_cast<std::size_t>(columns), 0);
+        if (measured == nullptr) {
+            find_bright_blocks(light, y0, options, scratch);
+        } else {
+            find_bright_blocks(*measured, y0, options, scratch);
+        }
         for (int column = 0; column < columns; ++column) {
-            if (bright[static_cast<std::size_t>(column)] == 0) continue;
-            search->load(light, weights, column * side, y0);
-            search->search(found[row]);
+            if (scratch.bright[static_cast<std::size_t>(column)] == 0) continue;
+            scratch.search.load(light, weights, column * side, y0);
+            scratch.search.search(found);
         }
         if (measured != nullptr) return;
-        found[row].energy_left =
-            strip_energy(light, weights, y0, std::min(light.height, y0 + side)) - found[row].energy;
+        found.energy_left =
+            strip_energy(light, weights, y0, std::min(light.height, y0 + side)) - found.energy;
     });
-    Clusters all;
-    for (const Clusters& row : found) {
-        all.clusters.insert(all.clusters.end(), row.clusters.begin(), row.clusters.end());
-        all.bright_pixels += row.bright_pixels;
-        all.energy += row.energy;
-        all.energy_left += row.energy_left;
-        all.error_bound += row.error_bound;
+    Clusters& all = impl_->all;
+    clear(all);
+    for (const Clusters& strip : strips) {
+        all.clusters.insert(all.clusters.end(), strip.clusters.begin(), strip.clusters.end());
+        all.bright_pixels += strip.bright_pixels;
+        all.energy += strip.energy;
+        all.energy_left += strip.energy_left;
+        all.error_bound += strip.error_bound;
     }
     if (measured != nullptr) all.energy_left = std::max(0.0, measured->energy() - all.energy);
     return all;
+}
+
+Clusters find_clusters(const ConstImageView& light, const float* weights,
+                       const KernelRoughness& roughness, const ClusterOptions& options,
+                       const BrightnessHistogram* measured) {
+    return ClusterFinder().find(light, weights, roughness, options, measured);
 }
 
 }  // namespace aureole::sources

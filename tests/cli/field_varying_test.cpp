@@ -60,6 +60,7 @@ TEST_F(FieldVarying, ACameraKeepsItsEnergy) {
                 1, 1e-4);
     EXPECT_EQ(json["method"], "nodes");
     EXPECT_GT(json["field_varying"]["kernels"].get<int>(), 1);
+    EXPECT_GT(json["field_varying"]["error"].get<double>(), 0);
 }
 
 TEST_F(FieldVarying, NeedlesDifferAndKeepTheEnergy) {
@@ -96,7 +97,7 @@ TEST_F(FieldVarying, NeedlesAreAnEyes) {
 TEST_F(FieldVarying, RefusesWhatItDoesNotKnow) {
     write("in.exr", noise(8, 8, 3));
     for (const char* options :
-         {"0.1", "maybe", "on --threshold 1", "on --gain 2", "on --surround same",
+         {"0.1", "maybe", "on --streaks 0", "on --threshold 1", "on --gain 2", "on --surround same",
           "on --method direct", "on --resolution half", "rank=0", "rank=2x", "rank="}) {
         const Outcome outcome =
             run(std::string("glare in.exr -o out.exr --field-varying ") + options);

@@ -114,7 +114,7 @@ TEST_F(Passes, WithoutGhostsThereAreNone) {
 TEST_F(Passes, SikachevIsItsOptions) {
     const std::string options =
         " --passes both --method sprites --cluster-error 0.001 --threshold 1 --tone-map xyz "
-        "--antialias edges";
+        "--resolution half --antialias edges";
     const auto same = [&](const std::string& preset, const std::string& bundle) {
         EXPECT_EQ(run("glare in.exr -o a.exr -o a.png --fov 6" + preset).exit_code, 0);
         EXPECT_EQ(run("glare in.exr -o b.exr -o b.png --fov 6" + bundle).exit_code, 0);
@@ -147,6 +147,10 @@ TEST_F(Passes, WhatIsGivenWinsOverThePreset) {
 
 // Of a preset's values none counts as given, so that none is refused where it has no effect.
 TEST_F(Passes, ThePresetFitsEveryUse) {
+    // Without bloom there is nothing for the preset's resolution.
+    const auto streaks = report("glare in.exr -o a.exr --fov 6 --preset sikachev --passes streaks");
+    EXPECT_EQ(streaks["parameters"]["resolution"], "full");
+    EXPECT_EQ(streaks["method"], "sprites");
     EXPECT_EQ(run("glare in.exr -o a.exr --fov 6 --preset sikachev --passes bloom").exit_code, 0);
     write("iris.exr", constant(64, 64, 1, 1));
     EXPECT_EQ(run("glare in.exr -o a.exr --fov 6 --preset sikachev --observer camera "
@@ -172,6 +176,10 @@ TEST_F(Passes, RefuseWhatHasNoEffect) {
     refused(" --cluster-side 3", {"--cluster-side", "3", "16"});
     refused(" --cluster-side 4", {"--cluster-side", "4", "sprites", "fft is exact"});
     refused(" --halation .1", {"--halation", "camera"});
+    refused(" --passes streaks --halo 2", {"--halo", "--passes streaks"});
+    refused(" --passes bloom --eyelashes 2", {"--eyelashes", "--passes bloom"});
+    refused(" --passes bloom --observer camera --ghosts none --blades 5",
+            {"--blades", "--passes bloom"});
     refused(" --halation .1 --observer camera", {"--halation", "--passes both"});
     refused(" --halation 2 --observer camera --passes both", {"--halation", "2", "from 0 to 1"});
     refused(" --ghosts none", {"--ghosts", "camera"});

@@ -161,14 +161,15 @@ class Glare {
 
     // `in` and `out` have the view's size and the channels given; they may be the same memory.
     // `matte`: width * height factors, row-major; required if and only if options.matte.
-    // Allocates nothing, except that kSprites, kHybrid and kAuto keep lists of lights, which grow
-    // to what the picture with the most of them needs; not to be run from two threads at once.
+    // Allocates nothing, except that kSprites, kHybrid and kAuto make lists of lights; not to be
+    // run from two threads at once.
     void apply(const ConstImageView& in, const ImageView& out,
                const float* matte = nullptr) noexcept;
 
     // Accounts for a picture and the result that apply() gave for it. Off-picture energy is
     // summed from the kernel itself (share_inside), not from the difference; what the last apply()
-    // cut off is added as its bound, so that the balance holds to within error_bound.
+    // cut off is added as its bound, so that for light that is not negative the balance holds to
+    // within error_bound.
     Energy energy(const ConstImageView& in, const ConstImageView& out,
                   const float* matte = nullptr) const;
 

@@ -85,7 +85,8 @@ class Iris {
 // towards +x. Values are clamped to [0, 1]; outside the picture 1.
 class Occluder {
   public:
-    // Throws InvalidArgument for an empty picture or a diameter that is not positive.
+    // Throws InvalidArgument for a picture that is empty or all black and a diameter that is not
+    // positive.
     Occluder(const ConstImageView& transmission, double diameter_mm);
 
     // At (x, y) mm on the front element, averaged over a square of side `footprint_mm`.

@@ -6,9 +6,9 @@
 // Light e(s) at pixels s makes the glare sum over s of e(s) k(x - s). Over a square cell of side N
 // this is replaced by one of
 //
-//     cell    E k_N(x - corner)     k_N: mean of k over the N x N shifts, the paper's "integral
-//     streak" point   E k(x - c)            c: the cell's centroid, k between pixels by bilinear
-//     weights
+//     cell    E k_N(x - corner)   k_N: mean of k over the N x N shifts, the paper's integral streak
+//
+//     point   E k(x - c)          c: the cell's centroid; k between pixels by bilinear weights
 //
 // with E the cell's energy, which both keep. How far that is from the truth, as the sum over pixels
 // and channels of |difference|, is bounded by what docs/sprites.md derives:
@@ -25,6 +25,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "aureole/image/image.h"
@@ -98,12 +99,31 @@ struct Clusters {
     double error_bound = 0;         // sum over clusters
 };
 
-// `light`: 1 or 3 channels, finite; `weights`: null, or width * height factors (relative solid
-// angles) by which pixels are multiplied to give energy. Negative light counts with its amount in
-// all sums and bounds, and may be in clusters. The same clusters for any number of threads.
-// `measured`: null, or all of the same light with the same weights: dark parts are then not looked
-// at again.
-// Throws InvalidArgument for an empty picture, other channel counts, options out of range.
+// Finds clusters picture by picture, in memory that it keeps: once pictures have as many clusters
+// as before, nothing is allocated.
+class ClusterFinder {
+  public:
+    ClusterFinder();
+    ~ClusterFinder();
+    ClusterFinder(ClusterFinder&&) noexcept;
+    ClusterFinder& operator=(ClusterFinder&&) noexcept;
+
+    // `light`: 1 or 3 channels, finite; `weights`: null, or width * height factors (relative solid
+    // angles) by which pixels are multiplied to give energy. Negative light counts with its amount
+    // in all sums and bounds, and may be in clusters. The same clusters for any number of threads.
+    // `measured`: null, or all of the same light with the same weights: dark parts are then not
+    // looked at again. The result is valid until the next call.
+    // Throws InvalidArgument for an empty picture, other channel counts, options out of range.
+    const Clusters& find(const ConstImageView& light, const float* weights,
+                         const KernelRoughness& roughness, const ClusterOptions& options = {},
+                         const BrightnessHistogram* measured = nullptr);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+// The same for one picture.
 Clusters find_clusters(const ConstImageView& light, const float* weights,
                        const KernelRoughness& roughness, const ClusterOptions& options = {},
                        const BrightnessHistogram* measured = nullptr);
