@@ -84,7 +84,8 @@ void GlareCommand::add_options(CLI::App& command) {
             "and streaks, added; sikachev: streaks of "
             "what is brighter than 1, as clusters, then bloom (--passes both "
             "--method sprites --cluster-error 0.001 --threshold 1 --resolution half "
-            "--tone-map xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): ghosts as "
+            "--tone-map xyz --antialias edges; camera: --blades 6 --ghosts none); blog (camera): "
+            "ghosts as "
             "drawn by a game, faded polygons of one colour each"),
         {"physical", "vivid", "thesis", "sikachev", "blog"});
     preset_option->capture_default_str();
