@@ -41,7 +41,7 @@ struct BakeCommand {
     int halo_frames = eye::FlipbookRange().halo_pupils;
     int streak_frames = eye::FlipbookRange().streak_pupils;
     int lid_states = eye::FlipbookRange().lid_states;
-    int poses = 3;
+    int poses = 4;
     eye::FlipbookRange range;
 };
 

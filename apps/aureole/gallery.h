@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "aureole/color/illuminant.h"
 #include "aureole/eye/anatomy.h"
 #include "aureole/image/image.h"
 #include "aureole/image/view.h"
@@ -26,8 +27,9 @@ struct Panel {
     // The eye before its preset, which gives it its look (gallery_render.h).
     eye::Eye eye;
     std::string preset = "physical";
-    double light_share = 1;  // what the lids let through
-    bool closed = false;     // they let nothing through that could spread
+    color::Illuminant spectrum = color::Illuminant::kD65;  // of the light that makes glare
+    double light_share = 1;                                // what the lids let through
+    bool closed = false;  // they let nothing through that could spread
 };
 
 struct Content {

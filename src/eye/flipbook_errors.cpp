@@ -182,11 +182,12 @@ FlipbookErrors errors_at_frames(const Flipbook& book, const Eye& eye, const EyeP
                                 FlipbookLids lids, int poses, Progress* progress) {
     const std::vector<Eye> all = poses_of_frames(book.range(), eye, lids);
     // In steps that share no factor with their number, so that pupils and states mix.
-    std::size_t step = all.size() * 3 / 8;
-    while (step > 1 && std::gcd(step, all.size()) > 1) --step;
+    const std::size_t count = all.size();
+    std::size_t step = std::max<std::size_t>(count * 3 / 8, 1);
+    while (std::gcd(step, count) > 1) ++step;
     std::vector<Eye> chosen;
-    for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(poses), all.size()); ++i) {
-        chosen.push_back(all[i * std::max<std::size_t>(step, 1) % all.size()]);
+    for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(poses), count); ++i) {
+        chosen.push_back(all[(count / 2 + i * step) % count]);
     }
     return measure(book, eye, options, chosen, progress);
 }

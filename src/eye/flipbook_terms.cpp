@@ -18,7 +18,7 @@ constexpr double kFadeShare = 0.125;
 // Red still counts there; what longer wavelengths carry farther is a few thousandths.
 constexpr double kReachNm = 650;
 // Radius within which the envelope is flat.
-constexpr int kFlatPx = 4;
+constexpr int kFlatPx = 2;
 
 bool patterns_fade(const wave::KernelGrid& raster, const wave::ApertureGrid& aperture) {
     const double sine = std::min(mm_from_nm(kReachNm) / (2 * aperture.spacing_mm()), 0.999);

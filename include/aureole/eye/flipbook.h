@@ -7,7 +7,7 @@
 //     player.write(living.at(time_s).eye, psf);                              (each frame)
 //
 // Stored are the terms of the PSF (eye_psf.h) relative to an envelope e, the scatter of the book's
-// middle pupil (flat within 4 pixels of the source), each as the spectrum of
+// middle pupil (flat within 2 pixels of the source), each as the spectrum of
 //
 //     texture  S (T' - 1) / e        halo  H / e        streaks  w_e E / e
 //
