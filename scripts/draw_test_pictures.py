@@ -2,6 +2,7 @@
 """Draws what pictures of the documentation need beside the built-in scenes: draw_test_pictures.py DIR
 
 ramps.hdr        saturated colours, one row each, doubled ten times from left to right
+lights.hdr       three equal lights of one pixel on black
 lamps.hdr        lamps and a sign of whole pixels over a dim ground
 star-filter.png  a regular grid of wires, as an occluder
 scratches.png    a scratched front element
@@ -58,6 +59,11 @@ def ramps(path):
     write_hdr(path, cell * steps, cell * len(colors), rgb)
 
 
+def lights(path):
+    write_hdr(path, 822, 270,
+              lambda x, y: (3e4, 3e4, 3e4) if y == 135 and x in (137, 411, 685) else (0, 0, 0))
+
+
 def lamps(path):
     width, height = 640, 360
     discs = [(100, 75, 11, (900, 700, 400)), (302, 243, 16, (500, 550, 600)),
@@ -102,6 +108,7 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     ramps(folder / "ramps.hdr")
+    lights(folder / "lights.hdr")
     lamps(folder / "lamps.hdr")
     star_filter(folder / "star-filter.png")
     scratches(folder / "scratches.png")

@@ -79,11 +79,12 @@ Spreading CameraObserver::spreading(const View& /*display*/, const View& data) {
     const wave::KernelGrid grid = wave::KernelGrid::full_reach(data);
     Spreading result;
     if (spread_.passes != Passes::kBloom) {
-        (spread_.passes == Passes::kOne ? result.rest : result.streaks) = lens::starburst_psf(
-            camera_.iris, camera_.entrance_pupil_mm(), grid, {}, camera_.dirt(), &session_);
+        (spread_.passes == Passes::kOne ? result.rest : result.streaks) =
+            shared(lens::starburst_psf(camera_.iris, camera_.entrance_pupil_mm(), grid, {},
+                                       camera_.dirt(), &session_));
     }
     if (spread_.passes == Passes::kBoth || spread_.passes == Passes::kBloom) {
-        result.rest = lens::halation_psf(spread_.halation, camera_.lens.efl_mm(), grid);
+        result.rest = shared(lens::halation_psf(spread_.halation, camera_.lens.efl_mm(), grid));
     }
     return result;
 }
@@ -142,7 +143,7 @@ void CameraObserver::report(nlohmann::ordered_json& json) const {
         parameters["halation_index"] = spread_.halation.refractive_index;
         parameters["halation_backing"] = spread_.halation.backing;
     }
-    parameters["field_varying"] = field_.report();
+    field_.report(parameters);
     if (!field_report_.empty()) json["field_varying"] = field_report_;
     parameters.update(ghost_options_.report(flare_options_));
     if (!ghost_options_.any()) return;

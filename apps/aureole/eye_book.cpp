@@ -92,9 +92,11 @@ void EyeBook::open_for(const eye::Eye& eye, const eye::SpectralSampling& samplin
                fmt::format("{:.6g} deg", raster.pitch_deg));
     }
     player_.emplace(book_, eye, sampling, grid);
+    psf_ = std::make_shared<wave::Psf>();
+    psf_->kernel = Image(grid.width, grid.height, 3);
 }
 
-wave::Psf EyeBook::psf(const eye::Eye& now, const eye::SpectralSampling& sampling,
+SharedPsf EyeBook::psf(const eye::Eye& now, const eye::SpectralSampling& sampling,
                        const wave::KernelGrid& grid, Session& session) {
     open_for(now, sampling, grid);
     const eye::FlipbookRange& range = book_.range();
@@ -102,10 +104,8 @@ wave::Psf EyeBook::psf(const eye::Eye& now, const eye::SpectralSampling& samplin
         session.note(fmt::format("{}: pupils beyond its {} to {} mm are shown by its nearest frame",
                                  path_, range.pupil_from_mm, range.pupil_to_mm));
     }
-    wave::Psf psf;
-    psf.kernel = Image(grid.width, grid.height, 3);
-    player_->write(now, psf);
-    return psf;
+    player_->write(now, *psf_);
+    return psf_;
 }
 
 }  // namespace aureole::app

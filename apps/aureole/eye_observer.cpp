@@ -2,23 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "aureole/color/rgb.h"
 #include "aureole/eye/eye_psf.h"
 #include "aureole/eye/field_error.h"
+#include "aureole/eye/field_needles.h"
 #include "aureole/eye/field_psf.h"
 #include "aureole/eye/metering.h"
+#include "aureole/eye/ranges.h"
 #include "kernel_file.h"
 #include "output_options.h"
 
 namespace aureole::app {
+
 double metered_cd_m2(const io::Picture& picture, double white_luminance_cd_m2) {
     const double stored{picture.float_attribute("aureole:adaptation_cd_m2").value_or(-1.0F)};
-    return std::isfinite(stored) && stored >= 0
-               ? stored
-               : eye::mean_luminance(over_display_window(picture.color(), picture)) *
-                     white_luminance_cd_m2;
+    const double seen = std::isfinite(stored) && stored >= 0
+                            ? stored
+                            : eye::mean_luminance(over_display_window(picture.color(), picture)) *
+                                  white_luminance_cd_m2;
+    return std::min(seen, eye::kBrightestCdM2);
 }
 
 Spreading spreading_of(const eye::Eye& eye, Passes passes, const View& data,
@@ -28,12 +33,12 @@ Spreading spreading_of(const eye::Eye& eye, Passes passes, const View& data,
     options.spectral = sampling;
     Spreading result;
     if (passes == Passes::kBoth || passes == Passes::kStreaks) {
-        result.streaks = eye::streaks_psf(eye, grid, options, &session);
+        result.streaks = shared(eye::streaks_psf(eye, grid, options, &session));
     }
     if (passes == Passes::kStreaks) return result;
     eye::Eye behind_lashes = eye;
     if (passes != Passes::kOne) behind_lashes.streaks = 0;
-    result.rest = eye::eye_psf(behind_lashes, grid, options, &session);
+    result.rest = shared(eye::eye_psf(behind_lashes, grid, options, &session));
     return result;
 }
 
@@ -61,10 +66,21 @@ std::optional<wave::VaryingPsf> EyeObserver::varying_psf(const View& display, co
     eye_ = options_.eye(*metered_cd_m2_, display);
     eye::FieldPsfOptions options;
     options.psf.spectral = options_.sampling();
-    if (field_.spacing_deg() > 0) options.spacing_deg = field_.spacing_deg();
-    options.rank = field_.rank();
-    wave::VaryingPsf psf = eye::eye_field_psf(eye_, data, options, &session_);
-    measure_field(psf, options);
+    wave::VaryingPsf psf;
+    if (field_.streaks()) {
+        if (field_.spacing_deg() > 0) options.spacing_deg = field_.spacing_deg();
+        options.rank = field_.rank();
+        psf = eye::eye_field_psf(eye_, data, options, &session_);
+        measure_field(psf, options);
+    } else {
+        psf.view = data;
+        psf.base = eye::eye_psf(eye_, wave::KernelGrid::full_reach(data), options.psf, &session_);
+    }
+    if (field_.needles()) {
+        eye::FieldNeedlesOptions needles;
+        needles.psf = options.psf;
+        eye::vary_needles(psf, eye_, needles, &session_);
+    }
     return psf;
 }
 
@@ -90,7 +106,7 @@ void EyeObserver::report(nlohmann::ordered_json& json) const {
     auto& parameters = json["parameters"];
     parameters["white_luminance_cd_m2"] = white_luminance_cd_m2_;
     parameters.update(options_.report(eye_, *metered_cd_m2_));
-    parameters["field_varying"] = field_.report();
+    field_.report(parameters);
     if (!field_report_.empty()) json["field_varying"] = field_report_;
 }
 
@@ -100,7 +116,7 @@ View KernelObserver::view_of(const io::Picture& picture) {
 }
 
 Spreading KernelObserver::spreading(const View& /*display*/, const View& data) {
-    return {.streaks = std::nullopt, .rest = read_kernel(file_, data)};
+    return {.streaks = nullptr, .rest = shared(read_kernel(file_, data))};
 }
 
 void KernelObserver::report(nlohmann::ordered_json& json) const {

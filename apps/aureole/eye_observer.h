@@ -23,7 +23,7 @@ enum class Metering {
 };
 
 // The luminance that a picture is metered at: its attribute aureole:adaptation_cd_m2, else its
-// mean.
+// mean; eye::kBrightestCdM2 at most.
 double metered_cd_m2(const io::Picture& picture, double white_luminance_cd_m2);
 
 // The PSFs of an eye for pictures whose data window is seen as `data`.

@@ -9,6 +9,7 @@
 #include "aureole/base/units.h"
 #include "aureole/color/illuminant.h"
 #include "aureole/eye/pupil.h"
+#include "aureole/eye/ranges.h"
 #include "option_checks.h"
 
 namespace aureole::app {
@@ -108,7 +109,18 @@ void EyeOptions::add_options_to_group() {
 
 std::string EyeOptions::first_given() const { return app::first_given(*group_); }
 
-void EyeOptions::check() const {
+void EyeOptions::check(bool lids_know_light) const {
+    if (given_number(pupil_)) {
+        refuse(given("--pupil-model") ? "--pupil-model" : "",
+               "has no effect with --pupil " + pupil_);
+        refuse(given("--adaptation") && !lids_know_light ? "--adaptation" : "",
+               "has no effect with --pupil " + pupil_);
+    }
+    if (const auto adaptation = given_number(adaptation_);
+        adaptation && !(*adaptation >= 0 && *adaptation <= eye::kBrightestCdM2)) {
+        throw InvalidArgument("--adaptation", adaptation_,
+                              fmt::format("must be 0 to {:g} cd/m2", eye::kBrightestCdM2));
+    }
     constexpr double kAnyLuminance = 1;
     eye(kAnyLuminance, View::from_fov(16, 9, 60, Projection::kPerspective));
 }

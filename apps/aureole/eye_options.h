@@ -25,13 +25,16 @@ class EyeOptions {
     void add_options_of_the_person(CLI::App& command);
     void set_preset(const std::string& word) { preset_ = word; }
 
-    // Throws InvalidArgument for an eye that cannot be, before any picture is read.
-    void check() const;
+    // Throws InvalidArgument for an eye that cannot be and for options that have no effect, before
+    // any picture is read. `lids_know_light`: the adaptation luminance moves lids, too.
+    void check(bool lids_know_light = false) const;
     // The first of these options that was given, or nothing.
     std::string first_given() const;
 
     // Whether the pupil follows from the luminance that the picture is metered at.
-    bool needs_adaptation() const { return pupil_ == "auto" && adaptation_ == "auto"; }
+    bool needs_adaptation() const { return pupil_ == "auto" && meters(); }
+    // Whether nothing else tells that luminance.
+    bool meters() const { return adaptation_ == "auto"; }
     // The table over time that --adaptation names, or nothing.
     std::string adaptation_file() const;
     // --adaptation as a number, or what was metered.
@@ -43,6 +46,7 @@ class EyeOptions {
     double pupil_mm(double metered_cd_m2, const View& view) const;
     double eyelid() const { return eyelid_; }
     int eyelashes() const { return eyelashes_; }
+    bool has_corona() const { return scatter_ != "none" && corona_contrast_.value_or(1) > 0; }
     double halo() const { return halo_.value_or(1); }
     double streaks() const { return streaks_.value_or(1); }
     // The model unless --pupil-model says otherwise.

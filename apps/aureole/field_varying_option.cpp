@@ -24,6 +24,19 @@ void FieldVaryingOption::add_to(CLI::Option_group& group) {
                     "all kernels: less memory, larger errors; off: that of the axis everywhere")
         ->type_name("off|on|rank=K|DEG")
         ->capture_default_str();
+    group.add_flag("--needles-by-position", needles_,
+                   "Eye: stars in different places show different needles, those of 8 deg wide "
+                   "regions, as light from there meets the particles in the eye");
+}
+
+std::string FieldVaryingOption::first_given() const {
+    if (on_) return "--field-varying";
+    return needles_ ? "--needles-by-position" : "";
+}
+
+void FieldVaryingOption::report(nlohmann::ordered_json& parameters) const {
+    parameters["field_varying"] = text_;
+    parameters["needles_by_position"] = needles_;
 }
 
 void FieldVaryingOption::check() {

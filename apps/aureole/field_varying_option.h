@@ -1,4 +1,5 @@
-// --field-varying: whether, and how finely, glare changes over the picture.
+// --field-varying and --needles-by-position: whether, and how finely, glare changes over the
+// picture.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,16 +14,23 @@ class FieldVaryingOption {
     // Throws InvalidArgument for a value that is not one of the option's.
     void check();
 
-    bool on() const { return on_; }
+    // Whether anything changes: streaks (or a camera's stars), or needles.
+    bool on() const { return on_ || needles_; }
+    // The option that says so; empty if none does.
+    std::string first_given() const;
+    bool streaks() const { return on_; }
+    bool needles() const { return needles_; }
     // Between nodes; 0: the observer's own.
     double spacing_deg() const { return spacing_deg_; }
     // Principal components that are kept; 0: the kernels of all nodes.
     int rank() const { return rank_; }
-    nlohmann::ordered_json report() const { return text_; }
+    // Adds them to the parameters in force.
+    void report(nlohmann::ordered_json& parameters) const;
 
   private:
     std::string text_ = "off";
     bool on_ = false;
+    bool needles_ = false;
     double spacing_deg_ = 0;
     int rank_ = 0;
 };

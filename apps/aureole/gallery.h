@@ -29,7 +29,6 @@ struct Panel {
     std::string preset = "physical";
     color::Illuminant spectrum = color::Illuminant::kD65;  // of the light that makes glare
     double light_share = 1;                                // what the lids let through
-    bool closed = false;  // they let nothing through that could spread
 };
 
 struct Content {

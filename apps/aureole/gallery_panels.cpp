@@ -93,7 +93,6 @@ Panel at_moment(Panel panel, const eye::Moment& moment, const std::string& label
     panel.label = label;
     panel.eye = moment.eye;
     panel.light_share = moment.light_share;
-    panel.closed = moment.closed;
     return panel;
 }
 

@@ -84,7 +84,7 @@ RenderedPanel PanelRenderer::render(const Panel& panel) {
     PanelEnergy& energy = rendered.energy;
     energy.in = energy_of(in, panel.view, solid_angles);
     Image out = in;
-    if (panel.glare && !panel.closed) {
+    if (panel.glare) {
         Prepared& prepared = prepared_for(eye, panel);
         prepared.glare.apply(in, out);
         const glare::Energy sums = prepared.glare.energy(in, out);
@@ -94,8 +94,6 @@ RenderedPanel PanelRenderer::render(const Panel& panel) {
             energy.spread += panel.light_share * prepared.spread[static_cast<std::size_t>(c)] *
                              energy_of(in.view().channel_range(c, 1), panel.view, solid_angles);
         }
-    }
-    if (panel.glare) {
         const auto share = static_cast<float>(panel.light_share);
         const std::size_t values = 3 * out.pixels();
         std::for_each_n(out.plane(0), values, [&](float& value) { value *= share; });

@@ -20,11 +20,6 @@ namespace {
 
 constexpr const char* kFallbackLens = "heliar";
 
-// Unless `option` is empty.
-void refuse(const std::string& option, const std::string& why) {
-    if (!option.empty()) throw InvalidArgument(option + ": " + why);
-}
-
 struct GlareCommand {
     void add_options(CLI::App& command);
     void run();
@@ -119,9 +114,10 @@ void GlareCommand::check() {
     spread.check();
     field_varying.check();
     if (field_varying.on()) {
-        const auto alone = [](const std::string& option) {
+        const auto alone = [&](const std::string& option) {
             if (!option.empty()) {
-                throw InvalidArgument("--field-varying: cannot be combined with " + option);
+                throw InvalidArgument(field_varying.first_given() + ": cannot be combined with " +
+                                      option);
             }
         };
         alone(psf_file.empty() ? "" : "--psf");
@@ -143,6 +139,7 @@ void GlareCommand::check_camera() {
     refuse(view.white_luminance_given() ? "--white-luminance" : "",
            "matters for the eye's pupil only: leave it out with --observer camera");
     refuse(book_file.empty() ? "" : "--book", "needs --observer eye");
+    refuse(field_varying.needles() ? "--needles-by-position" : "", "needs --observer eye");
     refuse(preset == "vivid" || preset == "thesis" ? "--preset " + preset : "",
            "needs --observer eye");
     const Passes passes = spread.passes();
@@ -165,25 +162,27 @@ void GlareCommand::check_eye() {
         return;
     }
     eye.set_preset(preset == "vivid" ? "vivid" : "physical");
-    eye.check();
-    motion.check();
-    if (!motion.alive()) {
-        refuse(book_file.empty() ? "" : "--book " + book_file,
-               "is for an eye that moves: needs --time or --fps");
-        refuse(eye.adaptation_file().empty() ? "" : "--adaptation " + eye.adaptation_file(),
-               "is a table over time: needs --time or --fps");
-    }
+    app::check_eye(eye, motion);
+    refuse(field_varying.needles() && !eye.has_corona() ? "--needles-by-position" : "",
+           "has no effect without a corona: needs --scatter and a --corona-contrast above 0");
+    refuse(book_file.empty() || motion.alive() ? "" : "--book " + book_file,
+           "is for an eye that moves: needs --time or --fps");
     // The first picture that a run happens to render must not decide for the others.
     refuse(motion.has_rate() && eye.needs_adaptation() ? "--fps" : "",
            "needs a luminance that is known for every frame: --adaptation with a table of `aureole "
            "meter` or a number, or --pupil");
+    refuse(motion.has_rate() && motion.squints() && motion.given("--squint") && eye.meters()
+               ? "--squint"
+               : "",
+           "with --fps needs a luminance that is known for every frame: --adaptation with a table "
+           "of `aureole meter` or a number");
     if (eye.by_color()) {
         const auto alone = [](const std::string& option) {
             if (!option.empty()) {
                 throw InvalidArgument("--source-spectrum rgb: cannot be combined with " + option);
             }
         };
-        alone(field_varying.on() ? "--field-varying" : "");
+        alone(field_varying.first_given());
         alone(spread.method == "fft" || spread.method == "direct" ? ""
                                                                   : "--method " + spread.method);
         alone(spread.surround == "same" ? "--surround same" : "");
@@ -212,11 +211,10 @@ void GlareCommand::check_thesis() {
         }
     };
     alone(psf_file.empty() ? "" : "--psf");
-    alone(field_varying.on() ? "--field-varying" : "");
+    alone(field_varying.first_given());
     alone(spread.passes() == Passes::kOne ? "" : "--passes " + spread.passes_name);
     alone(book_file.empty() ? "" : "--book");
     alone(spread.surround == "dark" ? "" : "--surround " + spread.surround);
-    if (frames.empty()) motion.check();
     eye.check();
     eye.set_default_pupil_model("thesis");
     spread.set_thesis_look();
@@ -255,6 +253,9 @@ void GlareCommand::run() {
     }
     settings.prepare(list);
     check();
+    const bool one_moment = list.size() > 1 && motion.alive() && !motion.has_rate();
+    refuse(one_moment && !frames.empty() ? "--time" : "",
+           "with --frames every frame would be seen at the same moment: needs --fps");
     ghosts.check_pictures(list.size());
     const std::unique_ptr<Observer> who = observer();
     PictureJob job(settings, spread, *who, session);

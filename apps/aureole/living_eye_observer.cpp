@@ -11,17 +11,15 @@ View LivingEyeObserver::view_of(const io::Picture& picture) {
 
 bool LivingEyeObserver::adapt(const io::Picture& picture) {
     white_luminance_cd_m2_ = view_options_.white_luminance(picture);
-    const double metered =
-        options_.needs_adaptation() ? metered_cd_m2(picture, white_luminance_cd_m2_) : 0;
+    const double metered = living_.meters() ? metered_cd_m2(picture, white_luminance_cd_m2_) : 0;
     moment_ = living_.at(time_s_, metered, view_);
     return false;
 }
 
 Spreading LivingEyeObserver::spreading(const View& /*display*/, const View& data) {
-    if (moment_.closed) return {};
     if (book_) {
         const auto grid = wave::KernelGrid::full_reach(data);
-        return {.streaks = std::nullopt,
+        return {.streaks = nullptr,
                 .rest = book_->psf(moment_.eye, options_.sampling(), grid, session_)};
     }
     return spreading_of(moment_.eye, passes_, data, options_.sampling(), session_);

@@ -25,7 +25,7 @@ class LivingEyeObserver : public Observer {
     LivingEyeObserver(const EyeOptions& eye, const MotionOptions& motion, const ViewOptions& view,
                       Passes passes, const std::string& book, Session& session)
         : options_(eye),
-          living_(eye, motion),
+          living_(eye, motion, session),
           view_options_(view),
           passes_(passes),
           session_(session) {

@@ -1,17 +1,21 @@
 // aureole meter: what luminance an eye adapts to, frame by frame.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 
 #include "aureole/base/error.h"
 #include "aureole/eye/luminance_curve.h"
 #include "aureole/eye/metering.h"
-#include "aureole/image/finite.h"
+#include "aureole/eye/ranges.h"
 #include "aureole/io/picture.h"
 #include "aureole/io/text_file.h"
 #include "commands.h"
 #include "frame_files.h"
+#include "input_picture.h"
+#include "motion_options.h"
 #include "option_checks.h"
 #include "output_options.h"
 #include "session.h"
@@ -23,6 +27,7 @@ namespace {
 struct MeterCommand {
     void add_options(CLI::App& command);
     void run();
+    std::vector<FrameFiles> checked_files() const;
     eye::MeteredLuminance metered(const std::string& file);
 
     Session session;
@@ -32,6 +37,7 @@ struct MeterCommand {
     std::string output;
     double fps = 24;
     std::string adapt_to = "mean";
+    std::size_t nonfinite_pixels = 0;
 };
 
 void MeterCommand::add_options(CLI::App& command) {
@@ -57,9 +63,30 @@ void MeterCommand::add_options(CLI::App& command) {
     session.add_options(command);
 }
 
+// In order of their times.
+std::vector<FrameFiles> MeterCommand::checked_files() const {
+    check_folder(output);
+    if (io::has_picture_extension(output)) {
+        throw InvalidArgument("--output", output,
+                              "a table (CSV) is written, no picture: must not end like one");
+    }
+    std::vector<FrameFiles> list = frame_files(inputs, {}, "", frames);
+    for (FrameFiles& frame : list) {
+        std::error_code ignored;
+        if (std::filesystem::equivalent(output, frame.input, ignored)) {
+            throw InvalidArgument("--output", output, "is an INPUT, which would be overwritten");
+        }
+        frame.time_s = frame_time_s(frame.number, fps);
+    }
+    std::sort(list.begin(), list.end(),
+              [](const FrameFiles& a, const FrameFiles& b) { return a.number < b.number; });
+    return list;
+}
+
 eye::MeteredLuminance MeterCommand::metered(const std::string& file) {
-    io::Picture picture = session.timed("read", [&] { return io::read_picture(file); });
-    replace_nonfinite(picture.color());
+    const InputPicture input = read_input(file, session);
+    const io::Picture& picture = input.picture;
+    nonfinite_pixels += input.nonfinite_pixels;
     const View seen = view.view_of(picture, session);
     return session.timed("meter", [&] {
         return eye::meter(over_display_window(picture.color(), picture), seen,
@@ -69,19 +96,19 @@ eye::MeteredLuminance MeterCommand::metered(const std::string& file) {
 
 void MeterCommand::run() {
     session.start();
-    check_folder(output);
     view.check();
-    const std::vector<FrameFiles> list = frame_files(inputs, {}, "", frames);
+    const std::vector<FrameFiles> list = checked_files();
     std::vector<eye::MeteredLuminance> rows;
     std::vector<double> times_s;
     std::vector<double> luminances;
     for (const FrameFiles& frame : list) {
         session.check_interrupt();
         rows.push_back(metered(frame.input));
-        times_s.push_back(frame.number / fps);
-        luminances.push_back(adapt_to == "mean"       ? rows.back().mean
-                             : adapt_to == "log-mean" ? rows.back().log_mean
-                                                      : rows.back().central);
+        times_s.push_back(frame.time_s);
+        const double seen = adapt_to == "mean"       ? rows.back().mean
+                            : adapt_to == "log-mean" ? rows.back().log_mean
+                                                     : rows.back().central;
+        luminances.push_back(std::min(seen, eye::kBrightestCdM2));
         if (list.size() > 1) {
             session.report("frames",
                            static_cast<double>(rows.size()) / static_cast<double>(list.size()));
@@ -104,6 +131,7 @@ void MeterCommand::run() {
     }
     io::write_text_file(output, text);
     session.json()["outputs"] = {output};
+    session.json()["nonfinite_pixels"] = nonfinite_pixels;
     const eye::PupilReflex reflex;
     session.json()["parameters"] = {{"fps", fps},
                                     {"adapt_to", adapt_to},

@@ -1,14 +1,22 @@
 #include "motion_options.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "aureole/base/error.h"
+#include "aureole/eye/ranges.h"
 #include "number_table.h"
 #include "option_checks.h"
 
 namespace aureole::app {
 namespace {
 
+constexpr const char* kMotionWords = "off, saccades";
+constexpr const char* kBlinkWords = "off, auto, streaks, moments in seconds (1.5,4)";
+
 eye::Gaze gaze_from(const std::string& file) {
-    const NumberTable table(file);
+    const NumberTable table = table_of_option("--motion", file, kMotionWords);
     const auto& yaw = table.column("yaw_deg");
     const auto& pitch = table.column("pitch_deg");
     const auto& roll = table.column("roll_deg");
@@ -29,7 +37,14 @@ eye::BlinkSettings blinks_from(const std::string& text) {
     if (text == "auto" || text == "streaks") return blinks;
     blinks.blinking = eye::Blinking::kVoluntary;
     const auto times = given_numbers(text, ',');
-    blinks.voluntary_s = times ? *times : NumberTable(text).column("time_s");
+    blinks.voluntary_s =
+        times ? *times : table_of_option("--blink", text, kBlinkWords).column("time_s");
+    try {
+        check(blinks);
+    } catch (const InvalidArgument& error) {
+        if (times) throw InvalidArgument("--blink", text, error.what());
+        throw FileError(text, error.what());
+    }
     return blinks;
 }
 
@@ -39,9 +54,7 @@ void MotionOptions::add_options(CLI::App& command) {
     needs_ = "--time or --fps";
     group_ = command.add_option_group("The eye in motion",
                                       "With " + needs_ + " the pupil, the lens and the lids move");
-    number(group_->add_option("--time", time_s_,
-                              "Moment at which the eye looks; with --fps, of frame 0"))
-        ->type_name("S");
+    moment_option("Moment at which the eye looks; with --fps, of frame 0");
     positive_number(group_->add_option("--fps", fps_,
                                        "Frames per second: each frame has its own moment, by its "
                                        "number"))
@@ -53,8 +66,14 @@ void MotionOptions::add_options_of_a_moment(CLI::App& command) {
     needs_ = "--time";
     group_ = command.add_option_group("The eye in motion",
                                       "With " + needs_ + " the pupil, the lens and the lids move");
-    number(group_->add_option("--time", time_s_, "Moment at which the eye looks"))->type_name("S");
+    moment_option("Moment at which the eye looks");
     add_movements();
+}
+
+void MotionOptions::moment_option(const std::string& description) {
+    number(group_->add_option("--time", time_s_, description), -eye::kFarthestTimeS,
+           eye::kFarthestTimeS)
+        ->type_name("S");
 }
 
 void MotionOptions::add_movements() {
@@ -70,8 +89,10 @@ void MotionOptions::add_movements() {
                      "nothing; moments in seconds (1.5,4), or a table with time_s")
         ->type_name("off|auto|streaks|TIMES|FILE")
         ->capture_default_str();
-    number(group_->add_option("--squint", squint_, "How far lids close against 30000 cd/m2"), 0,
-           0.8)
+    number(group_->add_option("--squint", squint_,
+                              "How far lids close against 30000 cd/m2, where the luminance is "
+                              "known"),
+           0, 0.8)
         ->type_name("0..0.8")
         ->capture_default_str();
 }
@@ -90,7 +111,15 @@ void MotionOptions::check() const {
 }
 
 double MotionOptions::time_s(int frame) const {
-    return time_s_.value_or(0) + (fps_ ? frame / *fps_ : 0.0);
+    return frame_time_s(frame, fps_, time_s_.value_or(0));
+}
+
+double frame_time_s(int frame, std::optional<double> fps, double start_s) {
+    const double time_s = start_s + (fps ? frame / *fps : 0.0);
+    if (std::abs(time_s) <= eye::kFarthestTimeS) return time_s;
+    throw InvalidArgument("--fps", fmt::format("{}", *fps),
+                          fmt::format("frame {} would be seen at {:g} s; must be {:g} to {:g} s",
+                                      frame, time_s, -eye::kFarthestTimeS, eye::kFarthestTimeS));
 }
 
 void MotionOptions::apply(eye::MotionSettings& settings, std::uint64_t seed) const {

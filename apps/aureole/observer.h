@@ -1,8 +1,10 @@
 // Who looks at a picture: an eye, a camera, or a kernel that somebody else made.
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "aureole/image/image.h"
 #include "aureole/image/view.h"
@@ -12,11 +14,15 @@
 
 namespace aureole::app {
 
+// An observer may keep a PSF and write the next one over it.
+using SharedPsf = std::shared_ptr<const wave::Psf>;
+inline SharedPsf shared(wave::Psf psf) { return std::make_shared<const wave::Psf>(std::move(psf)); }
+
 // How light spreads, in the order in which it meets what spreads it. Either may be missing.
 struct Spreading {
-    std::optional<wave::Psf> streaks;  // of what lies before the eye or the film, in a pass of its
-                                       // own (Passes::kBoth, kStreaks)
-    std::optional<wave::Psf> rest;     // all the rest: everything (kOne), or bloom
+    SharedPsf streaks;  // of what lies before the eye or the film, in a pass of its own
+                        // (Passes::kBoth, kStreaks)
+    SharedPsf rest;     // all the rest: everything (kOne), or bloom
 };
 
 // Made for one run; then asked for each picture in the order of these functions.
@@ -31,7 +37,7 @@ class Observer {
     // Gets used to the picture; false if the PSF made before does not serve for it.
     virtual bool adapt(const io::Picture& /*picture*/) { return true; }
     // How light spreads in pictures whose display window is seen as `display` and data window as
-    // `data`. Asked again only when the views change or adapt() says so.
+    // `data`; valid until the next call. Asked again only when the views change or adapt() says so.
     virtual Spreading spreading(const View& display, const View& data) = 0;
     // The same where it depends on the position in the picture, in place of spreading(); nothing if
     // it does not.

@@ -43,7 +43,7 @@ std::string listed(const std::vector<std::string>& words) {
 }
 
 std::string range_text(double least, double most) {
-    if (std::isfinite(most)) return fmt::format("must be a number from {} to {}", least, most);
+    if (std::isfinite(most)) return fmt::format("must be a number from {:g} to {:g}", least, most);
     if (std::isfinite(least)) return fmt::format("must be a number, at least {}", least);
     return "must be a number";
 }
@@ -64,10 +64,13 @@ CLI::Option* number(CLI::Option* option, double least, double most) {
     });
 }
 
-CLI::Option* positive_number(CLI::Option* option) {
-    return check(option, "must be a number above 0", [](const std::string& text) {
+CLI::Option* positive_number(CLI::Option* option, double most) {
+    const std::string allowed = std::isfinite(most)
+                                    ? fmt::format("must be a number above 0, up to {:g}", most)
+                                    : "must be a number above 0";
+    return check(option, allowed, [most](const std::string& text) {
         const std::optional<double> value = given_number(text);
-        return value && *value > 0;
+        return value && *value > 0 && *value <= most;
     });
 }
 
@@ -105,6 +108,10 @@ std::optional<std::vector<double>> given_numbers(const std::string& text, char s
         start = end + 1;
     }
     return numbers;
+}
+
+void refuse(const std::string& option, const std::string& why) {
+    if (!option.empty()) throw InvalidArgument(option + ": " + why);
 }
 
 std::string first_given(const CLI::App& group) {

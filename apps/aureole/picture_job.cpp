@@ -12,6 +12,7 @@
 #include "aureole/image/finite.h"
 #include "aureole/image/resample.h"
 #include "aureole/io/supersampling.h"
+#include "input_picture.h"
 #include "layers.h"
 #include "option_checks.h"
 #include "view_options.h"
@@ -243,13 +244,9 @@ void PictureJob::add_ghosts(const Image& ghosts) {
 
 void PictureJob::process(const FrameFiles& files) {
     observer_.set_time(files.time_s);
-    io::Picture picture = session_.timed("read", [&] { return io::read_picture(files.input); });
-    const std::size_t nonfinite = replace_nonfinite(picture.color());
-    if (nonfinite > 0) {
-        session_.note(fmt::format("{}: {} pixels with NaN or infinity replaced by 0", files.input,
-                                  nonfinite));
-    }
-    nonfinite_pixels_ += nonfinite;
+    InputPicture input = read_input(files.input, session_);
+    io::Picture& picture = input.picture;
+    nonfinite_pixels_ += input.nonfinite_pixels;
     read_matte(picture);
     average_samples(picture, files.input);
     const float* const matte = matte_.empty()                 ? nullptr

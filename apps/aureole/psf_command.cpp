@@ -113,9 +113,6 @@ void PsfCommand::check() {
         throw InvalidArgument("--size", fmt::format("{}", size),
                               "must be odd: the source is in the middle of a pixel");
     }
-    const auto refuse = [](const std::string& option, const std::string& why) {
-        if (!option.empty()) throw InvalidArgument(option + ": " + why);
-    };
     if (observer == "camera") {
         for (const std::string& option :
              {component_option->count() > 0 ? component_option->get_name() : "",
@@ -128,11 +125,11 @@ void PsfCommand::check() {
            "makes a kernel for each pair of colours, which no kernel file holds; `aureole glare` "
            "applies it");
     refuse(camera_options.first_given(), "is an option of the camera: needs --observer camera");
-    motion_options.check();
-    if (!motion_options.alive() && !eye_options.adaptation_file().empty()) {
-        refuse("--adaptation " + eye_options.adaptation_file(),
-               "is a table over time: needs --time");
-    }
+    check_eye(eye_options, motion_options);
+    refuse(motion_options.squints() && motion_options.given("--squint") && eye_options.meters()
+               ? "--squint"
+               : "",
+           "the luminance that lids close against is not known: needs --adaptation");
 }
 
 eye::Eye PsfCommand::eye_at_its_moment(const View& view, nlohmann::ordered_json& parameters) {
@@ -141,13 +138,15 @@ eye::Eye PsfCommand::eye_at_its_moment(const View& view, nlohmann::ordered_json&
         parameters = eye_options.report(eye, kDefaultAdaptation);
         return eye;
     }
-    LivingEye living(eye_options, motion_options);
+    LivingEye living(eye_options, motion_options, session);
     constexpr int kFirstFrame = 0;
     const double time_s = motion_options.time_s(kFirstFrame);
     const eye::Moment moment = living.at(time_s, kDefaultAdaptation, view);
     if (moment.closed) {
-        throw InvalidArgument("--time", fmt::format("{}", time_s),
-                              "the lids are closed then: there is no light to spread");
+        session.note(
+            fmt::format("--time {}: the lids are closed (light_share {:.2g} in --json): the kernel "
+                        "is that of their last opening",
+                        time_s, moment.light_share));
     }
     parameters = living.report();
     return moment.eye;

@@ -1,9 +1,11 @@
 #include "thesis_observer.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
-#include "aureole/base/error.h"
 #include "eye_observer.h"
+#include "option_checks.h"
 
 namespace aureole::app {
 namespace {
@@ -13,10 +15,6 @@ nlohmann::ordered_json json_of(const eye::ThesisTone& tone, double weight) {
             {"threshold", tone.threshold},
             {"factor", tone.factor},
             {"weight", weight}};
-}
-
-void refuse(const std::string& option, const std::string& why) {
-    if (!option.empty()) throw InvalidArgument(option + ": " + why);
 }
 
 }  // namespace
@@ -47,6 +45,7 @@ ThesisObserver::ThesisObserver(const EyeOptions& eye, const MotionOptions& motio
     }
     refuse(eye.adaptation_file().empty() ? "" : "--adaptation " + eye.adaptation_file(),
            "is a table over time: --preset thesis takes auto or a number");
+    if (!moving_) motion.check();
     look_.eyelashes = eye.eyelashes();
     look_.seed = eye.seed();
     look_.halo_weight *= eye.halo();
@@ -74,6 +73,7 @@ bool ThesisObserver::adapt(const io::Picture& picture) {
             options_.needs_adaptation() ? metered_cd_m2(picture, white_luminance_cd_m2_) : 0,
             view_);
         frames.pupil = eye::thesis_pupil_page(*pupil_mm_);
+        note_clamped(*pupil_mm_);
         frames.gratings = frames.pupil;
     }
     const bool same = frames_ == frames;
@@ -81,10 +81,20 @@ bool ThesisObserver::adapt(const io::Picture& picture) {
     return same;
 }
 
+void ThesisObserver::note_clamped(double pupil_mm) {
+    const double narrowest_mm = eye::thesis_pupil_mm(0);
+    const double widest_mm = eye::thesis_pupil_mm(eye::kThesisFrames - 1);
+    constexpr double kRoundingMm = 0.05;
+    if (pupil_mm > narrowest_mm - kRoundingMm && pupil_mm < widest_mm + kRoundingMm) return;
+    session_.note(fmt::format(
+        "--preset thesis: pupils beyond its {:.2g} to {:.2g} mm are shown by its nearest page",
+        narrowest_mm, widest_mm));
+}
+
 Spreading ThesisObserver::spreading(const View& /*display*/, const View& data) {
     eye::ThesisGlare glare = eye::thesis_glare(look_, *frames_, data, &session_);
     energy_ = glare.energy;
-    return {.streaks = std::nullopt, .rest = std::move(glare.psf)};
+    return {.streaks = nullptr, .rest = shared(std::move(glare.psf))};
 }
 
 void ThesisObserver::report(nlohmann::ordered_json& json) const {

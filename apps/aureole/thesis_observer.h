@@ -29,6 +29,8 @@ class ThesisObserver : public Observer {
     void report(nlohmann::ordered_json& json) const override;
 
   private:
+    void note_clamped(double pupil_mm);
+
     const EyeOptions& options_;
     const ViewOptions& view_options_;
     bool moving_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "aureole/base/error.h"
+#include "aureole/eye/ranges.h"
 #include "option_checks.h"
 
 namespace aureole::app {
@@ -31,7 +32,8 @@ void ViewOptions::add_options(CLI::App& command, const std::string& otherwise) {
 void ViewOptions::add_white_luminance_option(CLI::App& command) {
     positive_number(command.add_option("--white-luminance", white_luminance_cd_m2_,
                                        "What pixel value 1 means, in cd/m2 (default: attribute "
-                                       "whiteLuminance, else 100)"))
+                                       "whiteLuminance, else 100)"),
+                    eye::kBrightestCdM2)
         ->type_name("CD_M2");
 }
 

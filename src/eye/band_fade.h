@@ -1,21 +1,16 @@
 // How patterns end where the band of their raster does.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
 #include "aureole/wave/spectral_psf.h"
+#include "eye/smoothstep.h"
 
 namespace aureole::eye {
 
 // Streaks fade out over this last part of the transform's half width, so that no wavelength's band
 // ends in a visible (and, as bands scale with wavelength, coloured) square.
 inline constexpr double kStreaksFade = 0.35;
-
-inline double smoothstep(double from, double to, double x) {
-    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
 
 // 1 inside, falling to 0 at the transform's half width over the given share of it.
 inline double band_fade(std::size_t ring, int samples, double share) {

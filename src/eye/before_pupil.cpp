@@ -16,6 +16,13 @@ Oblique oblique(const Eye& eye, const FieldPosition& field) {
     return {-distance_mm * x, -distance_mm * y, x / r, y / r, 1 - 1 / std::hypot(1, r)};
 }
 
+wave::Point foreshortened(wave::Point point, const Oblique& view) {
+    const double along = point.x_mm * view.along_x + point.y_mm * view.along_y;
+    point.x_mm -= view.shortening * along * view.along_x;
+    point.y_mm -= view.shortening * along * view.along_y;
+    return point;
+}
+
 wave::Shape seen(wave::Shape shape, Layer layer, const Oblique& view) {
     if (view.shortening == 0) return shape;
     const bool shifted = layer == Layer::kBeforePupil;
@@ -25,9 +32,7 @@ wave::Shape seen(wave::Shape shape, Layer layer, const Oblique& view) {
                 point.x_mm += view.shift_x_mm;
                 point.y_mm += view.shift_y_mm;
             }
-            const double along = point.x_mm * view.along_x + point.y_mm * view.along_y;
-            point.x_mm -= view.shortening * along * view.along_x;
-            point.y_mm -= view.shortening * along * view.along_y;
+            point = foreshortened(point, view);
         }
     }
     return shape;

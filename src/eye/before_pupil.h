@@ -34,6 +34,8 @@ struct Oblique {
 };
 Oblique oblique(const Eye& eye, const FieldPosition& field);
 
+wave::Point foreshortened(wave::Point point, const Oblique& view);
+
 enum class Layer { kPupil, kBeforePupil };
 wave::Shape seen(wave::Shape shape, Layer layer, const Oblique& view);
 

@@ -9,6 +9,8 @@
 #include "aureole/base/error.h"
 #include "eye/band_noise.h"
 #include "eye/piecewise_linear.h"
+#include "eye/smoothstep.h"
+#include "eye/time_range.h"
 
 namespace aureole::eye {
 namespace {
@@ -17,8 +19,6 @@ constexpr double kClosingS = 0.092;
 constexpr double kClosingSdS = 0.017;
 constexpr double kOpeningS = 0.242;
 constexpr double kOpeningSdS = 0.055;
-
-double smoothstep(double x) { return x * x * (3 - 2 * x); }
 
 // Uniform, with this mean and standard deviation.
 double uniform_about(Random& random, double mean, double sd) {
@@ -46,8 +46,8 @@ void check(const BlinkSettings& settings) {
 double Blink::closure(double time_s) const noexcept {
     const double after_s = time_s - start_s;
     if (after_s <= 0 || after_s >= closing_s + opening_s) return 0;
-    return after_s < closing_s ? smoothstep(after_s / closing_s)
-                               : smoothstep(1 - (after_s - closing_s) / opening_s);
+    return after_s < closing_s ? smoothstep(0, closing_s, after_s)
+                               : smoothstep(0, opening_s, closing_s + opening_s - after_s);
 }
 
 Blinks::Blinks(const BlinkSettings& settings, std::uint64_t seed)
@@ -72,6 +72,7 @@ Blink Blinks::voluntary(std::size_t index) const noexcept {
 }
 
 double Blinks::closure(double time_s) const noexcept {
+    time_s = nearest_moment_s(time_s);
     if (settings_.blinking == Blinking::kSpontaneous) {
         const double interval = std::floor(time_s * settings_.per_minute / 60);
         return spontaneous(static_cast<std::int64_t>(interval)).closure(time_s);
@@ -88,6 +89,8 @@ double Blinks::closure(double time_s) const noexcept {
 }
 
 std::vector<Blink> Blinks::between(double from_s, double to_s) const {
+    from_s = nearest_moment_s(from_s);
+    to_s = nearest_moment_s(to_s);
     std::vector<Blink> found;
     const auto add = [&](const Blink& blink) {
         if (blink.start_s >= from_s && blink.start_s < to_s) found.push_back(blink);

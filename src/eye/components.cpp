@@ -195,9 +195,9 @@ Components::CoronaAndStreaks Components::corona_and_streaks(bool with_corona, bo
 
     wave::Mask particles(options_.aperture);
     if (with_corona) {
-        add_particles(eye_, ParticleLayer::kLens, particles);
-        add_particles(eye_, ParticleLayer::kVitreous, particles);
-        add_particles(eye_, ParticleLayer::kCornea, particles);
+        add_particles(eye_, ParticleLayer::kLens, particles, field_);
+        add_particles(eye_, ParticleLayer::kVitreous, particles, field_);
+        add_particles(eye_, ParticleLayer::kCornea, particles, field_);
     }
     wave::Mask lashes =
         with_streaks ? draw_lashes(eye_, options_.aperture, field_) : wave::Mask(options_.aperture);

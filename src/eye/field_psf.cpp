@@ -13,13 +13,13 @@
 #include "aureole/base/parallel.h"
 #include "aureole/base/units.h"
 #include "aureole/wave/field_nodes.h"
+#include "eye/field_checks.h"
 #include "eye/field_streaks.h"
 #include "eye/kernel_checks.h"
 
 namespace aureole::eye {
 namespace {
 
-constexpr double kMostFieldDeg = 160;
 // How much coarser the nodes of the rays are.
 constexpr double kRaySpacing = 7;
 
@@ -28,24 +28,13 @@ void check(const View& view, const FieldPsfOptions& options) {
         throw InvalidArgument("rank of streaks", fmt::format("{}", options.rank),
                               "must be at least 1, or 0 for the kernels themselves");
     }
-    const auto require = [](const char* what, double value, double low, double high) {
-        if (value >= low && value <= high) return;
-        throw InvalidArgument(what, fmt::format("{}", value),
-                              fmt::format("must be {} to {} deg", low, high));
-    };
     if (options.psf.spectral.by_color) {
         throw InvalidArgument("spectrum by colour", "on", "must be off where streaks vary");
     }
-    require("spacing of the nodes", options.spacing_deg, 0.5, 30);
-    require("centre of streaks", options.centre_deg, 0.2, 5);
-    require("reach of streaks", options.reach_deg, options.centre_deg, 45);
-    for (const double x : {0.0, static_cast<double>(view.width)}) {
-        for (const double y : {0.0, static_cast<double>(view.height)}) {
-            const FieldPosition corner = field_position(view, x, y);
-            require("field of view", 2 * std::max(std::abs(corner.x_deg), std::abs(corner.y_deg)),
-                    0, kMostFieldDeg);
-        }
-    }
+    require_deg("spacing of the nodes", options.spacing_deg, 0.5, 30);
+    require_deg("centre of streaks", options.centre_deg, 0.2, 5);
+    require_deg("reach of streaks", options.reach_deg, options.centre_deg, 45);
+    check_field_of(view);
 }
 
 }  // namespace
@@ -82,7 +71,7 @@ wave::VaryingPsf eye_field_psf(const Eye& eye, const View& view, const FieldPsfO
     const wave::KernelGrid centre_grid = wave::grid_within(view, options.centre_deg);
     const wave::KernelGrid ray_grid = wave::grid_within(view, options.reach_deg);
     const Image centre_part = wave::radial_window(centre_grid, options.centre_deg);
-    const Image ray_part = wave::radial_window(ray_grid, options.centre_deg);
+    const Image ray_part = wave::radial_ring(ray_grid, options.centre_deg, options.reach_deg);
 
     const SpectralSampling& spectrum = options.psf.spectral;
     FieldStreaks centre(eye, centre_grid,
@@ -97,8 +86,8 @@ wave::VaryingPsf eye_field_psf(const Eye& eye, const View& view, const FieldPsfO
     double centre_scale = 1;
     if (axis.share > 0) {
         const FieldStreaks::Streaks fine = std::move(centre.at({&ahead, 1}).front());
-        centre_scale = plane_sums(wave::windowed(axis.kernel, centre_part, false))[1] /
-                       plane_sums(wave::windowed(fine.kernel, centre_part, false))[1];
+        centre_scale = plane_sums(wave::windowed(axis.kernel, centre_part))[1] /
+                       plane_sums(wave::windowed(fine.kernel, centre_part))[1];
     }
 
     Eye rest = eye;
@@ -107,8 +96,8 @@ wave::VaryingPsf eye_field_psf(const Eye& eye, const View& view, const FieldPsfO
     rest.halo = std::min(20.0, eye.halo / (1 - axis.share));
     result.base = eye_psf(rest, wave::KernelGrid::full_reach(view), options.psf, progress);
 
-    const auto fill = [&](double spacing_deg, FieldStreaks& streaks, const Image& window,
-                          bool outside, double scale) {
+    const auto fill = [&](const char* what, double spacing_deg, FieldStreaks& streaks,
+                          const Image& window, double scale) {
         const wave::NodePlaces nodes = wave::node_places(view, spacing_deg);
         fourier::KernelNodes part{nodes.columns, nodes.rows, {}, {}};
         std::vector<FieldPosition> fields;
@@ -120,19 +109,18 @@ wave::VaryingPsf eye_field_psf(const Eye& eye, const View& view, const FieldPsfO
             const auto pair = all.subspan(first, std::min<std::size_t>(2, all.size() - first));
             for (const FieldStreaks::Streaks& light : streaks.at(pair)) {
                 part.halves.push_back(
-                    fourier::right_half(wave::windowed(light.kernel, window, outside, scale)));
+                    fourier::right_half(wave::windowed(light.kernel, window, scale)));
             }
             if (progress == nullptr) continue;
             progress->report(
-                outside ? "streaks: rays" : "streaks: centre",
-                static_cast<double>(part.halves.size()) / static_cast<double>(all.size()));
+                what, static_cast<double>(part.halves.size()) / static_cast<double>(all.size()));
             if (progress->cancelled()) throw Cancelled();
         }
         result.parts.push_back(options.rank == 0 ? std::move(part)
                                                  : principal_components(part, options.rank));
     };
-    fill(options.spacing_deg, centre, centre_part, false, centre_scale);
-    fill(kRaySpacing * options.spacing_deg, rays, ray_part, true, 1);
+    fill("streaks: centre", options.spacing_deg, centre, centre_part, centre_scale);
+    fill("streaks: rays", kRaySpacing * options.spacing_deg, rays, ray_part, 1);
     return result;
 }
 

@@ -186,6 +186,28 @@ TEST(FieldPsf, IsExactAtItsNodesAndCloseBetween) {
     EXPECT_LT(error(eye_field_psf(Eye(), view, options), 37, 10), 0.5 * error(coarse, 37, 10));
 }
 
+TEST(FieldPsf, RaysFadeBeforeTheyEnd) {
+    // A cut across rays is an edge in the picture.
+    FieldPsfOptions options = small();
+    options.reach_deg = 1.2;
+    const View view = View::from_fov(193, 97, 12, Projection::kPerspective);
+    const wave::VaryingPsf psf = eye_field_psf(Eye(), view, options);
+    const fourier::KernelNodes& rays = psf.parts[1];
+    const auto level = [&](int column) {
+        double sum = 0;
+        for (const Image& half : rays.halves) {
+            for (int y = 0; y < half.height(); ++y) {
+                sum += static_cast<double>(half.at(column, y, 1));
+            }
+        }
+        return sum;
+    };
+    const int end = rays.reach_x();
+    EXPECT_GT(level(2 * end / 3), 0);
+    EXPECT_LT(level(end), 1e-3 * level(2 * end / 3));
+    EXPECT_LT(level(end - 1), 0.1 * level(2 * end / 3));
+}
+
 TEST(FieldPsf, RefusesWhatNoEyeSees) {
     FieldPsfOptions options = small();
     options.spacing_deg = 0;

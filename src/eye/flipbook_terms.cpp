@@ -9,6 +9,7 @@
 #include "aureole/base/units.h"
 #include "aureole/wave/aperture.h"
 #include "eye/components.h"
+#include "eye/smoothstep.h"
 
 namespace aureole::eye {
 namespace {
@@ -121,8 +122,7 @@ FlipbookTerm flipbook_term(Component component, const Eye& eye, const Image& env
             for (int x = 0; x < raster.width; ++x) {
                 if (fades) {
                     const double edge = 1 - std::hypot(x - half, y - half) / (half + 1);
-                    const double t = std::clamp(edge / kFadeShare, 0.0, 1.0);
-                    value[x] *= static_cast<float>(t * t * (3 - 2 * t));
+                    value[x] *= static_cast<float>(smoothstep(0, kFadeShare, edge));
                 }
                 value[x] /= envelope.at(x, y);
             }

@@ -9,6 +9,7 @@
 #include "aureole/base/error.h"
 #include "eye/band_noise.h"
 #include "eye/piecewise_linear.h"
+#include "eye/time_range.h"
 
 namespace aureole::eye {
 namespace {
@@ -18,6 +19,7 @@ constexpr double kFixationSdDeg = 5.3;
 constexpr double kSaccadeS = 0.021;
 constexpr double kSaccadeSPerDeg = 0.0022;
 constexpr double kLongestSaccadeS = 0.15;
+constexpr double kMostDeg = 1e6;  // thousands of turns
 // e^-40 is below the rounding of a double: older turns change no bit.
 constexpr double kMemory = 40;
 
@@ -83,8 +85,10 @@ Gaze Gaze::through(std::vector<double> times_s, std::vector<Rotation> rotations)
                               fmt::format("must be as many as times, {}", times_s.size()));
     }
     for (const Rotation& rotation : rotations) {
-        if (!std::isfinite(rotation.yaw_deg + rotation.pitch_deg + rotation.roll_deg)) {
-            throw InvalidArgument("rotation: must be finite");
+        for (const double angle_deg : {rotation.yaw_deg, rotation.pitch_deg, rotation.roll_deg}) {
+            if (std::abs(angle_deg) <= kMostDeg) continue;
+            throw InvalidArgument("rotation", fmt::format("{}", angle_deg),
+                                  fmt::format("must be {:g} to {:g} deg", -kMostDeg, kMostDeg));
         }
     }
     Gaze gaze;
@@ -115,6 +119,7 @@ Gaze::Saccade Gaze::saccade(std::int64_t number) const noexcept {
 }
 
 Rotation Gaze::at(double time_s) const noexcept {
+    time_s = nearest_moment_s(time_s);
     if (saccades_) {
         const Saccade s = saccade(static_cast<std::int64_t>(std::floor(time_s / kFixationS)));
         return mix(s.from, s.to,
@@ -130,6 +135,7 @@ Rotation Gaze::at(double time_s) const noexcept {
 }
 
 Rotation Gaze::vitreous_lag(double time_s, const VitreousMechanics& mechanics) const noexcept {
+    time_s = nearest_moment_s(time_s);
     const ImpulseResponse response(mechanics);
     Rotation lag;
     // A straight piece of the curve changes the velocity at its start, and back at its end.

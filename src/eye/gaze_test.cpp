@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "aureole/base/error.h"
+#include "aureole/eye/ranges.h"
 
 namespace aureole::eye {
 namespace {
@@ -108,6 +109,8 @@ TEST(Gaze, RefusesWhatIsNoCurve) {
     EXPECT_THROW(Gaze::through({0, 1}, {{}}), InvalidArgument);
     EXPECT_THROW(Gaze::through({1, 0}, {{}, {}}), InvalidArgument);
     EXPECT_THROW(Gaze::through({0}, {{std::nan(""), 0, 0}}), InvalidArgument);
+    EXPECT_THROW(Gaze::through({0}, {{0, -2e6, 0}}), InvalidArgument);
+    EXPECT_THROW(Gaze::through({-2 * kFarthestTimeS, 0}, {{}, {}}), InvalidArgument);
     EXPECT_THROW(check(VitreousMechanics{0, 1}), InvalidArgument);
     EXPECT_THROW(check(VitreousMechanics{1, 0}), InvalidArgument);
 }

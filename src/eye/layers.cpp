@@ -1,4 +1,4 @@
-// Drawing the pupil and what floats in an eye, each layer from its own random stream.
+// Drawing the pupil and the fibres of the lens, each layer from its own random stream.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,80 +26,6 @@ constexpr int kFirstEdgeHarmonic = 2;
 // that neighbours stay nearly parallel.
 constexpr int kJitterHarmonics = 400;
 constexpr int kJitterNodes = 8192;
-
-// Calls move(disc, index) for each particle before it is drawn.
-template <class Move>
-void add_disc_of_particles(const Eye& eye, const Particles& particles, Stream stream,
-                           wave::Mask& coverage, const Move& move) {
-    Random random(eye.seed, stream);
-    std::vector<wave::Particle> discs(static_cast<std::size_t>(particles.count));
-    for (auto& disc : discs) {
-        const double distance = eye.anatomy.particle_disc_radius_mm * std::sqrt(random.uniform());
-        const double direction = random.uniform(0, 2 * kPi);
-        disc.x_mm = distance * std::cos(direction);
-        disc.y_mm = distance * std::sin(direction);
-        disc.radius_mm =
-            mm_from_um(random.log_uniform(particles.min_radius_um, particles.max_radius_um));
-    }
-    for (std::size_t i = 0; i < discs.size(); ++i) move(discs[i], i);
-    wave::draw_particles(coverage, discs);
-}
-
-// The vitreous as one rigid body. Seen from the retina, a particle at depth z behind the pupil lies
-// before the point of the pupil L / (L - z) times as far from the axis, L the distance to the
-// retina; and a turn about the centre of the eye moves it sideways by its distance from there.
-class VitreousMotion {
-  public:
-    explicit VitreousMotion(const Eye& eye)
-        : radius_mm_(eye.anatomy.particle_disc_radius_mm),
-          yaw_rad_(rad_from_deg(eye.pose.vitreous_yaw_deg)),
-          pitch_rad_(rad_from_deg(eye.pose.vitreous_pitch_deg)),
-          cosine_(std::cos(rad_from_deg(eye.pose.vitreous_roll_deg))),
-          sine_(std::sin(rad_from_deg(eye.pose.vitreous_roll_deg))),
-          at_rest_(yaw_rad_ == 0 && pitch_rad_ == 0 && eye.pose.vitreous_roll_deg == 0) {}
-
-    void operator()(wave::Particle& disc, std::size_t index) const {
-        if (at_rest_) return;
-        const double depth_mm = kVitreousDepthsMm[index % kVitreousDepthsMm.size()];
-        const double mm_per_rad =
-            (kRotationCentreMm - depth_mm) * kRetinaMm / (kRetinaMm - depth_mm);
-        const double x_mm = cosine_ * disc.x_mm - sine_ * disc.y_mm;
-        const double y_mm = sine_ * disc.x_mm + cosine_ * disc.y_mm;
-        const double shift_x_mm = mm_per_rad * yaw_rad_;
-        const double shift_y_mm = mm_per_rad * pitch_rad_;
-        const double shift_mm = std::hypot(shift_x_mm, shift_y_mm);
-        disc.x_mm = x_mm;
-        disc.y_mm = y_mm;
-        if (shift_mm == 0) return;
-        // There is more vitreous than the disc that is drawn: who leaves it enters again at the
-        // other end of the chord, which keeps the density uniform.
-        const double ux = shift_x_mm / shift_mm;
-        const double uy = shift_y_mm / shift_mm;
-        const double along_mm = ux * x_mm + uy * y_mm;
-        const double across_mm = ux * y_mm - uy * x_mm;
-        const double half_chord_mm =
-            std::sqrt(std::max(radius_mm_ * radius_mm_ - across_mm * across_mm, 1e-12));
-        const double turns = (along_mm + shift_mm + half_chord_mm) / (2 * half_chord_mm);
-        const double moved_mm = along_mm + shift_mm - 2 * half_chord_mm * std::floor(turns);
-        disc.x_mm = moved_mm * ux - across_mm * uy;
-        disc.y_mm = moved_mm * uy + across_mm * ux;
-    }
-
-  private:
-    // Distances behind the entrance pupil of an eye 24 mm long (Gullstrand's: pupil 3.05 mm behind
-    // the cornea, centre of rotation 13.5 mm). Depths in the front half of the vitreous: what is
-    // farther back throws shadows (floaters) instead of wide diffraction.
-    static constexpr double kRotationCentreMm = 10.4;
-    static constexpr double kRetinaMm = 21;
-    static constexpr std::array<double, 2> kVitreousDepthsMm = {4, 8};
-
-    double radius_mm_;
-    double yaw_rad_;
-    double pitch_rad_;
-    double cosine_;
-    double sine_;
-    bool at_rest_;
-};
 
 // Displacement of the fibres over one turn, in radians of the fibres' own phase.
 std::vector<float> fibre_jitter(const Eye& eye) {
@@ -157,30 +83,6 @@ wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid, const Fiel
         }
     }
     return pupil;
-}
-
-void add_particles(const Eye& eye, ParticleLayer layer, wave::Mask& coverage) {
-    check(eye);
-    const auto with_lens = [scale = eye.pose.lens_scale](wave::Particle& disc, std::size_t) {
-        disc.x_mm *= scale;
-        disc.y_mm *= scale;
-    };
-    const auto stay = [](wave::Particle&, std::size_t) {};
-    switch (layer) {
-        case ParticleLayer::kLens:
-            add_disc_of_particles(eye, eye.anatomy.lens_small, kLensSmallStream, coverage,
-                                  with_lens);
-            add_disc_of_particles(eye, eye.anatomy.lens_large, kLensLargeStream, coverage,
-                                  with_lens);
-            break;
-        case ParticleLayer::kVitreous:
-            add_disc_of_particles(eye, eye.anatomy.vitreous, kVitreousStream, coverage,
-                                  VitreousMotion(eye));
-            break;
-        case ParticleLayer::kCornea:
-            add_disc_of_particles(eye, eye.anatomy.cornea, kCorneaStream, coverage, stay);
-            break;
-    }
 }
 
 void multiply_gratings(const Eye& eye, wave::Field& field) {

@@ -7,21 +7,26 @@
 #include <cstddef>
 
 #include "aureole/base/error.h"
+#include "aureole/eye/ranges.h"
 #include "eye/piecewise_linear.h"
 
 namespace aureole::eye {
 namespace {
 
-constexpr double kDarknessCdM2 = 1e-6;
 // e^-40 is below the rounding of a double: older history changes no bit.
 constexpr double kMemory = 40;
 
 double log10_luminance(double luminance_cd_m2) {
-    if (!(luminance_cd_m2 >= 0) || !std::isfinite(luminance_cd_m2)) {
+    if (!(luminance_cd_m2 >= 0 && luminance_cd_m2 <= kBrightestCdM2)) {
         throw InvalidArgument("luminance", fmt::format("{}", luminance_cd_m2),
-                              "must be a number of cd/m2, at least 0");
+                              fmt::format("must be 0 to {:g} cd/m2", kBrightestCdM2));
     }
     return std::log10(std::max(luminance_cd_m2, kDarknessCdM2));
+}
+
+// Not beyond the range by a rounding.
+double luminance_cd_m2(double log10_luminance) noexcept {
+    return std::min(std::pow(10.0, log10_luminance), kBrightestCdM2);
 }
 
 // x(t) behind a lag of first order. By parts, x(t) minus the integral of e^(-u/T) x'(t - u) over
@@ -64,7 +69,7 @@ LuminanceCurve::LuminanceCurve(std::vector<double> times_s,
 }
 
 double LuminanceCurve::at(double time_s) const noexcept {
-    return std::pow(10.0, value_at(times_s_, log10_luminances_, time_s));
+    return luminance_cd_m2(value_at(times_s_, log10_luminances_, time_s));
 }
 
 void check(const PupilReflex& reflex) {
@@ -79,7 +84,7 @@ double damped_luminance_cd_m2(const LuminanceCurve& curve, double time_s,
     const auto behind = [&](double lag_s) {
         return lagged(curve.times_s(), curve.log10_luminances(), heard_s, lag_s);
     };
-    return std::pow(10.0, std::max(behind(reflex.constriction_s), behind(reflex.dilation_s)));
+    return luminance_cd_m2(std::max(behind(reflex.constriction_s), behind(reflex.dilation_s)));
 }
 
 }  // namespace aureole::eye

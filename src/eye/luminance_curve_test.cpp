@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "aureole/base/error.h"
+#include "aureole/eye/ranges.h"
 
 namespace aureole::eye {
 namespace {
@@ -26,6 +27,9 @@ TEST(LuminanceCurve, RefusesWhatIsNoCurve) {
     EXPECT_THROW(LuminanceCurve({0, 0}, {1, 1}), InvalidArgument);
     EXPECT_THROW(LuminanceCurve({0, 1}, {1}), InvalidArgument);
     EXPECT_THROW(LuminanceCurve({0, 1}, {1, -1}), InvalidArgument);
+    EXPECT_THROW(LuminanceCurve(2 * kBrightestCdM2), InvalidArgument);
+    EXPECT_LE(LuminanceCurve(kBrightestCdM2).at(0), kBrightestCdM2);
+    EXPECT_THROW(LuminanceCurve({0, 2 * kFarthestTimeS}, {1, 1}), InvalidArgument);
     EXPECT_THROW(LuminanceCurve({0, std::nan("")}, {1, 1}), InvalidArgument);
 }
 

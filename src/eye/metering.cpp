@@ -5,11 +5,10 @@
 
 #include "aureole/base/units.h"
 #include "aureole/color/rgb.h"
+#include "aureole/eye/ranges.h"
 
 namespace aureole::eye {
 namespace {
-
-constexpr double kDarknessCdM2 = 1e-6;
 
 // Calls visit(luminance, x, y) for every pixel.
 template <class Visit>

@@ -13,6 +13,8 @@
 #include "eye/before_pupil.h"
 #include "eye/piecewise_linear.h"
 #include "eye/pupil_outline.h"
+#include "eye/smoothstep.h"
+#include "eye/time_range.h"
 
 namespace aureole::eye {
 namespace {
@@ -44,11 +46,6 @@ constexpr double kSquintFullCdM2 = 30000;
 
 constexpr double kClosedShare = 0.002;
 constexpr double kLidRadiusMm = 12;  // wave::lid_opening()
-
-double smoothstep(double from, double to, double x) {
-    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
 
 void require(const char* name, double value, double low, double high, const char* unit) {
     if (value >= low && value <= high) return;
@@ -184,6 +181,7 @@ LivingEye::LivingEye(LivingEye&&) noexcept = default;
 LivingEye& LivingEye::operator=(LivingEye&&) noexcept = default;
 
 Moment LivingEye::at(double time_s) const noexcept {
+    time_s = nearest_moment_s(time_s);
     const Impl& own = *impl_;
     const MotionSettings& settings = own.settings;
     Moment moment;

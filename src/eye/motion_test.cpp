@@ -9,10 +9,12 @@
 #include <cstddef>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "aureole/base/error.h"
 #include "aureole/base/units.h"
+#include "aureole/eye/ranges.h"
 #include "aureole/wave/mask_shapes.h"
 
 namespace aureole::eye {
@@ -151,6 +153,25 @@ TEST(LivingEye, IsContinuous) {
         closed = closed || a.closed;
     }
     EXPECT_TRUE(closed);
+}
+
+// Any double may be asked for, and is answered with an eye that can be drawn.
+TEST(LivingEye, IsAskedForMomentsBeyondItsRange) {
+    MotionSettings settings;
+    settings.gaze = Gaze::saccades(1);
+    settings.blinks.blinking = Blinking::kSpontaneous;
+    const LivingEye eye(Eye{}, settings, LuminanceCurve({0, 1}, {1, kBrightestCdM2}));
+    constexpr double kEndless = std::numeric_limits<double>::infinity();
+    for (const double time_s : {1e30, kEndless, 1e300}) {
+        const Moment late = eye.at(time_s);
+        const Moment early = eye.at(-time_s);
+        ASSERT_NO_THROW(check(late.eye));
+        ASSERT_NO_THROW(check(early.eye));
+        EXPECT_EQ(late.eye, eye.at(kFarthestTimeS).eye);
+        EXPECT_EQ(early.eye, eye.at(-kFarthestTimeS).eye);
+    }
+    ASSERT_NO_THROW(check(eye.at(std::nan("")).eye));
+    EXPECT_NE(eye.at(kFarthestTimeS).eye, eye.at(kFarthestTimeS - 1).eye);
 }
 
 TEST(LivingEye, IsTheSameInAnyOrder) {

@@ -9,16 +9,23 @@
 #include <vector>
 
 #include "aureole/base/error.h"
+#include "aureole/eye/ranges.h"
 
 namespace aureole::eye {
 
-// Throws InvalidArgument unless there is a time at least, and all are finite and ascend.
+// Throws InvalidArgument unless there is a time at least, and all ascend within kFarthestTimeS of
+// 0.
 inline void check_times(const std::vector<double>& times_s) {
     if (times_s.empty()) throw InvalidArgument("times", "none", "must be one at least");
     for (std::size_t i = 0; i < times_s.size(); ++i) {
-        if (!std::isfinite(times_s[i]) || (i > 0 && times_s[i] <= times_s[i - 1])) {
+        if (!(std::abs(times_s[i]) <= kFarthestTimeS)) {
+            throw InvalidArgument(
+                "time (s)", fmt::format("{}", times_s[i]),
+                fmt::format("must be {:g} to {:g}", -kFarthestTimeS, kFarthestTimeS));
+        }
+        if (i > 0 && times_s[i] <= times_s[i - 1]) {
             throw InvalidArgument("time (s)", fmt::format("{}", times_s[i]),
-                                  "must be finite and later than the one before");
+                                  "must be later than the one before");
         }
     }
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "aureole/base/units.h"
 #include "aureole/eye/anatomy.h"
 #include "aureole/wave/mask_shapes.h"
 
@@ -18,9 +19,9 @@ bool same(const Buffer& a, const Buffer& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-wave::Mask particles(const Eye& eye, ParticleLayer layer) {
+wave::Mask particles(const Eye& eye, ParticleLayer layer, const FieldPosition& field = {}) {
     wave::Mask mask(kGrid);
-    add_particles(eye, layer, mask);
+    add_particles(eye, layer, mask, field);
     return mask;
 }
 
@@ -154,6 +155,42 @@ TEST(Pose, BringsLashesDownWithoutTheLid) {
     eye.pose.lash_closure = 0.4;
     EXPECT_TRUE(same(with_lid.values, draw_lashes(eye, kGrid).values));
     EXPECT_TRUE(same(pupil.values, draw_pupil(eye, kGrid).values));
+}
+
+// A light that stands aside sees what lies before the pupil moved away from it, and what lies
+// behind it moved towards it, by depth times slope; all of it foreshortened.
+TEST(Parallax, MovesLayersByTheirDepth) {
+    const double angle_deg = 5;
+    const double slope = std::tan(rad_from_deg(angle_deg));
+    const double cosine = std::cos(rad_from_deg(angle_deg));
+    const auto shift_mm = [&](const Eye& eye, ParticleLayer layer) {
+        return centroid(particles(eye, layer, {angle_deg, 0})).x_mm / cosine -
+               centroid(particles(eye, layer)).x_mm;
+    };
+    EXPECT_NEAR(shift_mm(sparse(), ParticleLayer::kCornea), -3.05 * slope, 0.005);
+    // Two particles, 4 and 8 mm deep, before a retina at 21 mm; rays inside are less oblique.
+    const double mean_mm = 0.82 * (4 * 21.0 / 17 + 8 * 21.0 / 13) / 2;
+    EXPECT_NEAR(shift_mm(sparse(), ParticleLayer::kVitreous), mean_mm * slope, 0.005);
+    const double lens_mm = shift_mm(sparse(), ParticleLayer::kLens) / slope;
+    EXPECT_GT(lens_mm, 0);
+    EXPECT_LT(lens_mm, 0.82 * 3.6 * 21 / 17.4);
+}
+
+TEST(Parallax, KeepsParticlesWithinTheirDisc) {
+    const Eye eye;
+    for (const ParticleLayer layer :
+         {ParticleLayer::kLens, ParticleLayer::kVitreous, ParticleLayer::kCornea}) {
+        const wave::Mask seen = particles(eye, layer, {0, 30});
+        EXPECT_NEAR(wave::area_mm2(seen), wave::area_mm2(particles(eye, layer)),
+                    0.01 * wave::area_mm2(seen));
+        for (int j = 0; j < kGrid.samples; ++j) {
+            for (int i = 0; i < kGrid.samples; ++i) {
+                if (seen.row(j)[i] == 0) continue;
+                ASSERT_LT(std::hypot(kGrid.x_mm(i), kGrid.y_mm(j)),
+                          eye.anatomy.particle_disc_radius_mm + 0.05);
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "aureole/base/error.h"
+#include "aureole/eye/ranges.h"
 
 namespace aureole::eye {
 namespace {
 
-constexpr double kDarknessCdM2 = 1e-6;
 constexpr double kSphereDeg2 = 41253;
 constexpr double kNarrowestMm = 1.2;
 
@@ -51,9 +51,9 @@ std::string_view name_of(PupilModel model) {
 
 double pupil_diameter_mm(PupilModel model, double luminance_cd_m2,
                          const PupilConditions& conditions) {
-    if (!(luminance_cd_m2 >= 0 && std::isfinite(luminance_cd_m2))) {
+    if (!(luminance_cd_m2 >= 0 && luminance_cd_m2 <= kBrightestCdM2)) {
         throw InvalidArgument("adaptation luminance", fmt::format("{}", luminance_cd_m2),
-                              "must be finite and at least 0 cd/m2");
+                              fmt::format("must be 0 to {:g} cd/m2", kBrightestCdM2));
     }
     if (!(conditions.age_years >= 1 && conditions.age_years <= 120)) {
         throw InvalidArgument("age", fmt::format("{}", conditions.age_years),

@@ -8,6 +8,7 @@
 
 #include "aureole/base/error.h"
 #include "aureole/base/units.h"
+#include "aureole/eye/ranges.h"
 
 namespace aureole::eye {
 namespace {
@@ -109,6 +110,8 @@ TEST(Pupil, IsFiniteInDarkness) {
 TEST(Pupil, RefusesAbsurdInput) {
     const auto model = PupilModel::kWatsonYellott;
     EXPECT_THROW(pupil_diameter_mm(model, -1), InvalidArgument);
+    EXPECT_NO_THROW(pupil_diameter_mm(model, kBrightestCdM2));
+    EXPECT_THROW(pupil_diameter_mm(model, 2 * kBrightestCdM2), InvalidArgument);
     EXPECT_THROW(pupil_diameter_mm(model, std::numeric_limits<double>::quiet_NaN()),
                  InvalidArgument);
     EXPECT_THROW(pupil_diameter_mm(model, std::numeric_limits<double>::infinity()),

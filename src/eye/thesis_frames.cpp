@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "aureole/base/units.h"
+#include "eye/time_range.h"
 
 namespace aureole::eye {
 namespace {
@@ -34,16 +35,16 @@ int thesis_ping_pong(std::int64_t step) noexcept {
 }
 
 ThesisFrames thesis_frames(std::int64_t frame) noexcept {
-    const std::int64_t slow =
-        (frame - positive_remainder(frame, kThesisLidsSlowness)) / kThesisLidsSlowness;
-    return {thesis_ping_pong(frame), thesis_ping_pong(frame + kThesisGratingsOffset),
-            static_cast<int>(positive_remainder(frame, kThesisFrames)), thesis_ping_pong(slow)};
+    const std::int64_t phase = positive_remainder(frame, kThesisRepeat);
+    return {thesis_ping_pong(phase), thesis_ping_pong(phase + kThesisGratingsOffset),
+            static_cast<int>(phase % kThesisFrames), thesis_ping_pong(phase / kThesisLidsSlowness)};
 }
 
 std::int64_t thesis_frame_at(double time_s) noexcept {
     // n / 30 is not exact in binary.
     constexpr double kRounding = 1e-6;
-    return static_cast<std::int64_t>(std::floor(time_s * kThesisFramesPerSecond + kRounding));
+    return static_cast<std::int64_t>(
+        std::floor(nearest_moment_s(time_s) * kThesisFramesPerSecond + kRounding));
 }
 
 double thesis_pupil_mm(int page) noexcept { return kMeanPupilMm + kPupilSwingMm * swing(page); }

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+
+#include "aureole/eye/ranges.h"
 
 namespace aureole::eye {
 namespace {
@@ -44,8 +47,17 @@ TEST(ThesisFrames, LidsMoveAsThePupilDoesButSlower) {
 
 TEST(ThesisFrames, TheWholeRepeats) {
     for (std::int64_t frame = -7000; frame < 7000; frame += 13) {
-        EXPECT_EQ(thesis_frames(frame), thesis_frames(frame + 7080)) << frame;
+        EXPECT_EQ(thesis_frames(frame), thesis_frames(frame + kThesisRepeat)) << frame;
     }
+}
+
+TEST(ThesisFrames, AnyFrameAndAnyTimeHavePages) {
+    constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+    const ThesisFrames pages = thesis_frames(kLast);
+    EXPECT_EQ(pages, thesis_frames(kLast - kThesisRepeat));
+    EXPECT_EQ(pages.particles, kLast % kThesisFrames);
+    EXPECT_EQ(thesis_frame_at(1e300), thesis_frame_at(kFarthestTimeS));
+    EXPECT_EQ(thesis_frame_at(-1e300), thesis_frame_at(-kFarthestTimeS));
 }
 
 TEST(ThesisFrames, AFrameBeginsAtItsTime) {

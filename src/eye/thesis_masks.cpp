@@ -9,6 +9,7 @@
 #include "aureole/base/units.h"
 #include "aureole/wave/mask_shapes.h"
 #include "aureole/wave/radial_grating.h"
+#include "eye/smoothstep.h"
 
 namespace aureole::eye {
 namespace {
@@ -30,11 +31,6 @@ constexpr double kLashWindowMm = 4.5;
 constexpr double kLashWindowFadeMm = 1.5;
 constexpr double kLashWidthMm = 0.09;
 constexpr double kLashAngleDeg = 15;  // section 2.4: 10 to 30, about the vertical
-
-double smoothstep(double from, double to, double x) {
-    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
 
 // Nothing beyond the outer radius; an edge would make a pattern of its own.
 void fade_out(wave::Mask& mask, double inner_mm, double outer_mm) {

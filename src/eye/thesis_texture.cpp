@@ -10,6 +10,7 @@
 #include "aureole/fourier/fft.h"
 #include "aureole/wave/diffraction.h"
 #include "aureole/wave/spectral_psf.h"
+#include "eye/smoothstep.h"
 #include "eye/thesis_masks.h"
 
 namespace aureole::eye {
@@ -141,8 +142,7 @@ Image thesis_texture(Component component, const ThesisLook& look, const ThesisFr
         const int y = static_cast<int>(row);
         for (int x = 0; x < kThesisTextureSide; ++x) {
             const double r = std::hypot(x - kCentre, y - kCentre) / kCentre;
-            const double t = std::clamp((1 - r) / (1 - kFadeFrom), 0.0, 1.0);
-            const double fade = t * t * (3 - 2 * t);
+            const double fade = smoothstep(0, 1 - kFadeFrom, 1 - r);
             for (int c = 0; c < 3; ++c) {
                 float& value = texture.at(x, y, c);
                 value = static_cast<float>(fade * apply(tone, static_cast<double>(value)));

@@ -36,6 +36,7 @@ void KernelNodes::half_of(int node, const ImageView& out) const noexcept {
             for (std::size_t t = 0; t < terms; ++t) {
                 const auto n = static_cast<std::size_t>(node);
                 const float factor = mixture.empty() ? 1.0F : mixture[n * terms + t];
+                if (t > 0 && factor == 0) continue;
                 const float* from = halves[mixture.empty() ? n : t].row(y, c);
                 float* to = &out.at(0, y, c);
                 for (int x = 0; x < out.width; ++x) {

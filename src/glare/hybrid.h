@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 
 #include "aureole/fourier/convolver.h"
 #include "aureole/sources/brightness_histogram.h"
@@ -12,29 +11,14 @@
 
 namespace aureole::glare {
 
-// The radius of the square around a kernel's centre to which it may be cut so that at most `share`
-// of its sum of |k| is lost; and how much is.
-struct Crop {
-    int radius = 0;
-    double lost = 0;
-};
-Crop crop_of(const ConstImageView& kernel, double share);
-
-// The middle (2 radius + 1) square of a kernel, or what there is of it.
-ConstImageView cropped(const ConstImageView& kernel, int radius);
-
 class Hybrid {
   public:
-    // `split`: of the kernel, null where it has no far part on a raster. Of the two ways to save
-    // padding, the far layer and a kernel that just ends within the error asked for, the one with
-    // the smaller transforms is taken; if neither has smaller ones than the whole kernel, then
-    // that.
-    Hybrid(int width, int height, int channels, const ConstImageView& kernel, double error,
-           const FarKernel* split);
+    Hybrid(int width, int height, int channels, double error, const FarKernel& split);
 
     // Of the energy, what may go without its far part: for BrightnessHistogram::count().
     double dim_share() const;
-    // Pixels above it get their far part.
+    // Pixels above it get their far part, of which a share from half of the limit of the histogram
+    // up to it.
     float dim_limit(const sources::BrightnessHistogram& histogram) const;
 
     struct Plan {
@@ -44,25 +28,19 @@ class Hybrid {
         double energy_cut = 0;   // light that ends within the picture or beyond it
         SpriteWork work;
     };
-    // With a far layer only.
     Plan plan(const ConstImageView& light, const float* weights,
               const sources::BrightnessHistogram& histogram);
     // What was planned for the same light. `out` may be the same memory as `light`.
     void draw(const ConstImageView& light, const ImageView& out, const float* weights) noexcept;
 
-    const fourier::Convolver& convolver() const { return *convolver_; }
-    fourier::Convolver& convolver() { return *convolver_; }
-    // Whether there is something to plan: else the result has the same cost for all pictures.
-    bool has_far() const { return far_.has_value(); }
-    FarLayer* far() { return far_ ? &*far_ : nullptr; }
-    // Of the kernel's sum of |k|, what is cut off without a far layer.
-    double lost() const { return lost_; }
+    const fourier::Convolver& convolver() const { return convolver_; }
+    fourier::Convolver& convolver() { return convolver_; }
+    FarLayer& far() { return far_; }
 
   private:
     double error_;
-    double lost_ = 0;
-    std::optional<FarLayer> far_;
-    std::optional<fourier::Convolver> convolver_;
+    FarLayer far_;
+    fourier::Convolver convolver_;
     std::size_t planned_ = 0;  // sprites
 };
 

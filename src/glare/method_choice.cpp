@@ -62,7 +62,7 @@ void CostCorrection::observe(Method method, double predicted_seconds, double act
     model_[i] += 0.5 * surprise;
 }
 
-MethodChoice::MethodChoice(fourier::Convolver& convolver, SpritePainter& painter, Hybrid& hybrid,
+MethodChoice::MethodChoice(fourier::Convolver& convolver, SpritePainter& painter, Hybrid* hybrid,
                            sources::BrightnessHistogram& histogram)
     : painter_(painter),
       hybrid_(hybrid),
@@ -71,7 +71,7 @@ MethodChoice::MethodChoice(fourier::Convolver& convolver, SpritePainter& painter
       channel_share_(convolver.channels() / 3.0),
       speed_(machine_speed()),
       fft_seconds_(transform_seconds(convolver)),
-      hybrid_fft_seconds_(transform_seconds(hybrid.convolver())) {
+      hybrid_fft_seconds_(hybrid == nullptr ? 0 : transform_seconds(hybrid->convolver())) {
     const int channels = convolver.channels();
     near_speed_ = drawing_speed(painter.near(), channels);
     seconds_per_edge_pixel_ =
@@ -85,7 +85,8 @@ MethodChoice::MethodChoice(fourier::Convolver& convolver, SpritePainter& painter
                speed.seconds(typical_work(far->layer(), far->layer().profile().end(), 1));
     };
     far_seconds_per_block_ = far_speed(painter.far(), far_speed_);
-    hybrid_seconds_per_block_ = far_speed(hybrid.far(), hybrid_far_speed_);
+    hybrid_seconds_per_block_ =
+        far_speed(hybrid == nullptr ? nullptr : &hybrid->far(), hybrid_far_speed_);
 }
 
 double MethodChoice::sprites_seconds(const BrightArea& area) const {
@@ -136,7 +137,7 @@ void MethodChoice::estimate_from_blocks() {
         const double blocks = histogram_.pixels_above(method.dim_limit(histogram_));
         return BrightArea{blocks, blocks, blocks};
     };
-    estimate(area(painter_), may_win(hybrid_left_) ? area(hybrid_) : BrightArea{});
+    estimate(area(painter_), may_win(hybrid_left_) ? area(*hybrid_) : BrightArea{});
 }
 
 void MethodChoice::estimate_from_pixels(const ConstImageView& light, int block_step,
@@ -150,7 +151,7 @@ void MethodChoice::estimate_from_pixels(const ConstImageView& light, int block_s
         sprites_area_ = bright_area(light, histogram_, painter_.dim_limit(histogram_), block_step);
     }
     if (hybrid) {
-        hybrid_area_ = bright_area(light, histogram_, hybrid_.dim_limit(histogram_), block_step);
+        hybrid_area_ = bright_area(light, histogram_, hybrid_->dim_limit(histogram_), block_step);
     }
     estimate(sprites_area_, hybrid_area_);
     const double looked = elapsed(start_);
@@ -161,7 +162,7 @@ void MethodChoice::estimate_from_pixels(const ConstImageView& light, int block_s
 // Of those of the methods that may still be the fastest.
 double MethodChoice::least_share() const {
     const double sprites = may_win(sprites_left_) ? painter_.dim_share() : 1.0;
-    return may_win(hybrid_left_) ? std::min(sprites, hybrid_.dim_share()) : sprites;
+    return may_win(hybrid_left_) ? std::min(sprites, hybrid_->dim_share()) : sprites;
 }
 
 void MethodChoice::consider(Method method, double model_seconds, MethodReport& report) {
@@ -182,10 +183,9 @@ void MethodChoice::choose(const ConstImageView& light, const float* weights, Met
     report.reason = Reason::kNoGain;
     enough_ = kNever;
     consider(Method::kFft, fft_seconds_, report);
-    if (!hybrid_.has_far()) consider(Method::kHybrid, hybrid_fft_seconds_, report);
     sprites_left_ = 0;
     lit_pixels_ = 0;
-    hybrid_left_ = hybrid_.has_far() ? 0 : kNever;
+    hybrid_left_ = hybrid_ == nullptr ? kNever : 0;
     const auto hopeless = [&] { return !may_win(sprites_left_) && !may_win(hybrid_left_); };
     estimate({}, {});
     if (hopeless()) return;
@@ -229,7 +229,7 @@ void MethodChoice::plan_sprites(const ConstImageView& light, const float* weight
 void MethodChoice::plan_hybrid(const ConstImageView& light, const float* weights,
                                MethodReport& report) {
     if (!may_win(hybrid_left_)) return;
-    hybrid_plan_ = hybrid_.plan(light, weights, histogram_);
+    hybrid_plan_ = hybrid_->plan(light, weights, histogram_);
     if (hybrid_area_.blocks > 0) {
         hybrid_seconds_per_block_ =
             hybrid_far_speed_.seconds(hybrid_plan_.work) / hybrid_area_.blocks;

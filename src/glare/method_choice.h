@@ -40,11 +40,12 @@ class CostCorrection {
 class MethodChoice {
   public:
     // Keeps references; times what it will choose from, for some 100 ms with large pictures.
-    MethodChoice(fourier::Convolver& convolver, SpritePainter& painter, Hybrid& hybrid,
+    // `hybrid`: null where the kernel has no far part.
+    MethodChoice(fourier::Convolver& convolver, SpritePainter& painter, Hybrid* hybrid,
                  sources::BrightnessHistogram& histogram);
 
-    // Fills report.method, reason and predicted seconds. Sprites, and a hybrid with a far part, are
-    // planned if they are chosen.
+    // Fills report.method, reason and predicted seconds. Sprites and a hybrid are planned if they
+    // are chosen.
     void choose(const ConstImageView& light, const float* weights, MethodReport& report);
     const SpritePainter::Plan& sprites_plan() const { return sprites_plan_; }
     const Hybrid::Plan& hybrid_plan() const { return hybrid_plan_; }
@@ -60,7 +61,7 @@ class MethodChoice {
     double planned_hybrid_seconds() const;
 
     bool may_win(double estimated_seconds) const;
-    // What sprites, and a hybrid with a far part, will take, from what is known of the light.
+    // What sprites and a hybrid will take, from what is known of the light.
     // Methods that are ruled out stay so.
     void estimate(const sources::BrightArea& sprites, const sources::BrightArea& hybrid);
     void estimate_from_blocks();
@@ -73,7 +74,7 @@ class MethodChoice {
     void plan_hybrid(const ConstImageView& light, const float* weights, MethodReport& report);
 
     SpritePainter& painter_;
-    Hybrid& hybrid_;
+    Hybrid* hybrid_;
     sources::BrightnessHistogram& histogram_;
     double pixels_;
     double channel_share_;  // of three

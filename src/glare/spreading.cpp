@@ -29,21 +29,27 @@ Spreading::Spreading(int width, int height, int channels, const Image& kernel,
     }
     share_inside_ =
         glare::share_inside(width, height, channels == 3 ? kernel_of_primaries(kernel) : kernel);
-    if (asked_ == Method::kFft || automatic) convolver_.emplace(width, height, channels, kernel);
-    if (asked_ == Method::kDirect || asked_ == Method::kFft) return;
-    const std::optional<FarKernel> split =
-        find_far_kernel(kernel, kShareOfFarRaster * options.cluster_error);
-    const FarKernel* far = split ? &*split : nullptr;
+    if (asked_ == Method::kDirect) return;
+    std::optional<FarKernel> split;
+    if (asked_ != Method::kFft) {
+        split = find_far_kernel(kernel, kShareOfFarRaster * options.cluster_error);
+    }
     if (asked_ == Method::kSprites || automatic) {
         SpriteOptions sprites;
         sprites.error = options.cluster_error;
         sprites.clusters.max_side = options.cluster_side;
-        painter_.emplace(width, height, channels, kernel, sprites, far);
+        painter_.emplace(width, height, channels, kernel, sprites, split ? &*split : nullptr);
     }
-    if (asked_ == Method::kHybrid || automatic) {
-        hybrid_.emplace(width, height, channels, kernel, options.cluster_error, far);
+    if ((asked_ == Method::kHybrid || automatic) && split &&
+        needed_pixels(width, height, split->near) < needed_pixels(width, height, kernel)) {
+        hybrid_.emplace(width, height, channels, options.cluster_error, *split);
     }
-    if (automatic) choice_.emplace(*convolver_, *painter_, *hybrid_, histogram_);
+    // A hybrid of a kernel without a far part is all transforms.
+    if (asked_ == Method::kHybrid && !hybrid_) asked_ = Method::kFft;
+    if (asked_ == Method::kFft || automatic) convolver_.emplace(width, height, channels, kernel);
+    if (automatic) {
+        choice_.emplace(*convolver_, *painter_, hybrid_ ? &*hybrid_ : nullptr, histogram_);
+    }
 }
 
 int Spreading::padded_width() const {
@@ -74,11 +80,7 @@ void Spreading::run_sprites(const ConstImageView& in, const ImageView& out, cons
 
 void Spreading::run_hybrid(const ConstImageView& in, const ImageView& out, const float* weights,
                            const Hybrid::Plan& plan) {
-    if (hybrid_->has_far()) {
-        report_plan(plan.energy, plan.error_bound, plan.energy_cut, plan.sprites);
-    } else {
-        report_plan(1, hybrid_->lost(), hybrid_->lost(), 0);
-    }
+    report_plan(plan.energy, plan.error_bound, plan.energy_cut, plan.sprites);
     hybrid_->draw(in, out, weights);
 }
 
@@ -98,15 +100,11 @@ void Spreading::run(const ConstImageView& in, const ImageView& out, const float*
                 in, out, weights,
                 choice_ ? choice_->sprites_plan() : painter_->plan(in, weights, histogram_));
             break;
-        case Method::kHybrid: {
-            const bool plan = !choice_ && hybrid_->has_far();
-            if (plan) histogram_.measure(in, weights, hybrid_->dim_share());
+        case Method::kHybrid:
+            if (!choice_) histogram_.measure(in, weights, hybrid_->dim_share());
             run_hybrid(in, out, weights,
-                       plan      ? hybrid_->plan(in, weights, histogram_)
-                       : choice_ ? choice_->hybrid_plan()
-                                 : Hybrid::Plan{});
+                       choice_ ? choice_->hybrid_plan() : hybrid_->plan(in, weights, histogram_));
             break;
-        }
         default:
             if (two_scale_) {
                 report_plan(1, report_.raster.error, 0, 0);

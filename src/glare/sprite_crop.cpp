@@ -26,7 +26,7 @@ struct EnergyBin {
 };
 
 std::vector<EnergyBin> bins_of(const std::vector<sources::Cluster>& clusters) {
-    constexpr int kBinsPerOctave = 4;
+    constexpr int kBinsPerOctave = 32;
     constexpr int kOctaves = 300;  // all floats
     std::vector<EnergyBin> bins(static_cast<std::size_t>(kBinsPerOctave) * kOctaves);
     for (const sources::Cluster& cluster : clusters) {
@@ -51,14 +51,14 @@ double crop_level(const std::vector<sources::Cluster>& clusters, const KernelPro
     const auto lost = [&](double level) {
         double sum = 0;
         for (const EnergyBin& bin : bins) {
-            sum += bin.amount * profile.beyond(profile.radius_below(level / bin.least));
+            sum += bin.amount * profile.lost(profile.radius_below(level / bin.least));
         }
         return sum;
     };
     double high = bins.back().least;
     double low = high * 1e-30;
     if (lost(low) > most_lost) return 0;
-    while (high > 1.02 * low) {
+    while (high > 1.0001 * low) {
         const double middle = std::sqrt(low * high);
         (lost(middle) > most_lost ? high : low) = middle;
     }
@@ -70,8 +70,8 @@ int crop_radius(const sources::Cluster& cluster, const KernelProfile& profile, d
     return energy > 0 ? profile.radius_below(level / energy) : 0;
 }
 
-double energy_beyond(const sources::Cluster& cluster, const KernelProfile& profile, int radius) {
-    return amount(cluster) * profile.beyond(radius);
+double energy_lost(const sources::Cluster& cluster, const KernelProfile& profile, int radius) {
+    return amount(cluster) * profile.lost(radius);
 }
 
 }  // namespace aureole::glare

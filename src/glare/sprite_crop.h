@@ -10,8 +10,8 @@
 
 namespace aureole::glare {
 
-// `most_lost`: of the sum over clusters and channels of |energy| beyond their radius. 0 if nothing
-// may be lost.
+// `most_lost`: of the sum over clusters and channels of |energy| that fades out with their radius.
+// 0 if nothing may be lost.
 double crop_level(const std::vector<sources::Cluster>& clusters, const KernelProfile& profile,
                   double most_lost);
 
@@ -19,6 +19,6 @@ double crop_level(const std::vector<sources::Cluster>& clusters, const KernelPro
 int crop_radius(const sources::Cluster& cluster, const KernelProfile& profile, double level);
 
 // Bound on what is lost of one cluster, summed over channels.
-double energy_beyond(const sources::Cluster& cluster, const KernelProfile& profile, int radius);
+double energy_lost(const sources::Cluster& cluster, const KernelProfile& profile, int radius);
 
 }  // namespace aureole::glare

@@ -18,10 +18,12 @@ struct Sprite {
     std::array<std::array<float, 4>, 3> weight = {};
     int taps = 1;  // 1 or 4
     // What is drawn: a disc about (centre_x, centre_y) (continuous pixel coordinates), within
-    // columns [left, right) and rows [top, bottom).
+    // columns [left, right) and rows [top, bottom). Over the last `fade` pixels of the radius it
+    // falls smoothly to nothing.
     float centre_x = 0;
     float centre_y = 0;
     float radius = 0;
+    float fade = 0;
     int left = 0;
     int right = 0;
     int top = 0;

@@ -82,7 +82,7 @@ KernelProfile::KernelProfile(const ConstImageView& kernel) {
         std::ceil(std::hypot(kernel.width - kernel.width / 2, kernel.height - kernel.height / 2)) +
         1);
     largest_.assign(bins, 0.0);
-    beyond_.assign(bins, 0.0);
+    lost_.assign(bins, 0.0);
     for (int c = 0; c < kernel.channels; ++c) {
         std::vector<double> sums(bins, 0.0);
         for (int y = 0; y < kernel.height; ++y) {
@@ -94,18 +94,28 @@ KernelProfile::KernelProfile(const ConstImageView& kernel) {
                 largest_[bin] = std::max(largest_[bin], k);
             }
         }
-        double beyond = 0;
-        for (std::size_t i = bins; i-- > 0;) {
-            beyond += sums[i];
-            beyond_[i] = std::max(beyond_[i], beyond);
-        }
+        std::vector<double> beyond(bins + 1, 0.0);
+        for (std::size_t i = bins; i-- > 0;) beyond[i] = beyond[i + 1] + sums[i];
+        parallel_for(bins, [&](std::size_t radius, int) {
+            double lost = beyond[radius];
+            const auto end = static_cast<double>(radius);
+            // Pixels of bin i are less than i + 1 away.
+            for (auto i = static_cast<std::size_t>(kFadeFrom * end); i < radius; ++i) {
+                const double left =
+                    (end - static_cast<double>(i) - 1) / ((1 - kFadeFrom) * std::max(end, 1.0));
+                lost += sums[i] * (1 - smooth_step(left));
+            }
+            lost_[radius] = std::max(lost_[radius], lost);
+        });
     }
     for (std::size_t i = bins - 1; i-- > 0;) largest_[i] = std::max(largest_[i], largest_[i + 1]);
+    while (largest_.size() > 1 && largest_.back() == 0) largest_.pop_back();
+    lost_.resize(largest_.size());
 }
 
-double KernelProfile::beyond(int radius) const {
+double KernelProfile::lost(int radius) const {
     if (radius >= end()) return 0;
-    return beyond_[static_cast<std::size_t>(std::max(radius, 0))];
+    return lost_[static_cast<std::size_t>(std::max(radius, 0))];
 }
 
 int KernelProfile::radius_below(double value) const {
@@ -114,10 +124,10 @@ int KernelProfile::radius_below(double value) const {
     return static_cast<int>(first - largest_.begin());
 }
 
-int KernelProfile::radius_leaving(double sum) const {
-    const auto first = std::partition_point(beyond_.begin(), beyond_.end(),
-                                            [sum](double beyond) { return beyond > sum; });
-    return static_cast<int>(first - beyond_.begin());
+int KernelProfile::radius_losing(double sum) const {
+    const auto first =
+        std::partition_point(lost_.begin(), lost_.end(), [sum](double lost) { return lost > sum; });
+    return static_cast<int>(first - lost_.begin());
 }
 
 SplitKernel split_kernel(const ConstImageView& kernel, int core_radius) {

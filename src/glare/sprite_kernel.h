@@ -32,25 +32,31 @@ class PaddedKernel {
     Buffer data_;
 };
 
-// How much of a kernel lies beyond a distance from its centre, and how bright it is there.
+// Sprites fade out over the last part of their radius, smoothly (smooth_step): no edge shows where
+// they end.
+inline constexpr double kFadeFrom = 0.75;  // of the radius
+
+// How much of a kernel is lost if it fades out at a distance from its centre, and how bright it is
+// there.
 class KernelProfile {
   public:
     explicit KernelProfile(const ConstImageView& kernel);
 
     // Distances are whole pixels; from end() on there is nothing.
     int end() const { return static_cast<int>(largest_.size()); }
-    // Sum of |k| at a distance of `radius` or more, the largest of all channels.
-    double beyond(int radius) const;
+    // Sum of |k| that is lost if the kernel is faded out to `radius`, the largest of all channels;
+    // 0 from end() on, where it is not faded.
+    double lost(int radius) const;
     // The largest |k| from a radius below end() on.
     double largest_from(int radius) const { return largest_[static_cast<std::size_t>(radius)]; }
     // The least radius from which on no |k| exceeds `value`.
     int radius_below(double value) const;
-    // The least radius with at most `sum` beyond it.
-    int radius_leaving(double sum) const;
+    // The least radius with which at most `sum` is lost.
+    int radius_losing(double sum) const;
 
   private:
     std::vector<double> largest_;  // |k| from this distance on
-    std::vector<double> beyond_;
+    std::vector<double> lost_;
 };
 
 // k = smooth + core: `core` ends `core_radius` pixels from the centre, where `smooth` has a rounded

@@ -45,7 +45,7 @@ SpriteLayer::Made SpriteLayer::make(const std::vector<sources::Cluster>& cluster
     sprites_.clear();
     for (const sources::Cluster& cluster : clusters) {
         const int radius = crop_radius(cluster, profile_, level);
-        made.energy_cut += energy_beyond(cluster, profile_, radius);
+        made.energy_cut += energy_lost(cluster, profile_, radius);
         sprites_.push_back(sprite_of(cluster, radius));
         add_work(sprites_.back(), made.work);
     }
@@ -80,6 +80,10 @@ Sprite SpriteLayer::sprite_of(const sources::Cluster& cluster, int radius) const
     sprite.centre_y = static_cast<float>(y + 0.5);
     // The half diagonal of a cell, and the half pixel between whole distances.
     sprite.radius = static_cast<float>(radius + 1 + (is_cell ? 0.75 * cluster.side : 0));
+    // Kernels that are there as a whole have their own end.
+    if (radius < profile_.end()) {
+        sprite.fade = static_cast<float>((1 - kFadeFrom) * std::max(radius, 1));
+    }
     const int extra = sprite.taps == 4 ? 1 : 0;
     const auto reach = static_cast<int>(sprite.radius) + 1;
     const auto within = [&](double centre, int start, int extent, int size) {

@@ -52,7 +52,7 @@ SpritePainter::SpritePainter(int width, int height, int channels, const ConstIma
     near_.emplace(width, height, channels, 1, 0, parts.smooth,
                   options_.clusters.cells ? options_.clusters.max_side : 1);
     const double lost = kShares.crop * options.error / (far_ ? 2 : 1);
-    const double radius = near_->profile().radius_leaving(lost);
+    const double radius = near_->profile().radius_losing(lost);
     typical_area_ = std::min(kPi * radius * radius, static_cast<double>(near.width) * near.height);
     for (Buffer& buffer : scratch_) buffer = Buffer(3 * SpriteTiles::kPlane);
 }

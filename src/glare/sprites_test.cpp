@@ -182,6 +182,29 @@ TEST(Sprites, SinglePixelsAreTheKernel) {
     }
 }
 
+// A sprite that ended at once would draw its outline.
+TEST(Sprites, FadeOutWhereTheyEnd) {
+    const Image kernel = needle_kernel(301, 3, 0);
+    Image light(301, 301, 3);
+    for (int c = 0; c < 3; ++c) light.at(150, 150, c) = 1000;
+    SpriteOptions options;
+    options.error = 0.2;
+    Sprites sprites(301, 301, 3, kernel, options);
+    Image out(301, 301, 3);
+    sprites.apply(light, out);
+    const auto share = [&](int x) {
+        return static_cast<double>(out.at(x, 150, 1)) / (1000 * kernel.at(x, 150, 1));
+    };
+    int end = 151;
+    while (out.at(end, 150, 1) > 0) ++end;
+    ASSERT_LT(end, 290);
+    EXPECT_NEAR(share(150 + (end - 150) / 2), 1, 1e-4);
+    EXPECT_LT(share(end - 1), 0.01);
+    for (int x = 151; x < end; ++x) {
+        EXPECT_LT(std::abs(share(x) - share(x - 1)), 8.0 / (end - 150)) << x;
+    }
+}
+
 // The paper's own: even cells are exact, in any size of cell.
 TEST(Sprites, ClustersOfThePaperAreExactForEvenLight) {
     const Image kernel = needle_kernel(33, 6, 1);

@@ -33,13 +33,18 @@ constexpr std::array<Format, 7> kFormats = {{{"exr", "openexr", Encoding::kExr},
                                              {"jpg", "jpeg", Encoding::kDisplay},
                                              {"jpeg", "jpeg", Encoding::kDisplay}}};
 
-const Format& format_of(const std::string& path) {
+const Format* known_format(const std::string& path) {
     const std::size_t start = path.find_last_of("./");
     std::string extension;
     if (start != std::string::npos && path[start] == '.') extension = path.substr(start + 1);
     for (const Format& format : kFormats) {
-        if (OIIO::Strutil::iequals(extension, format.extension)) return format;
+        if (OIIO::Strutil::iequals(extension, format.extension)) return &format;
     }
+    return nullptr;
+}
+
+const Format& format_of(const std::string& path) {
+    if (const Format* const format = known_format(path)) return *format;
     throw InvalidArgument("output file", path,
                           "must end in .exr, .hdr, .tif, .tiff, .png, .jpg or .jpeg");
 }
@@ -186,6 +191,8 @@ void write_parts(AtomicFile& file, std::string_view encoded, const OtherParts& o
 }
 
 }  // namespace
+
+bool has_picture_extension(const std::string& path) { return known_format(path) != nullptr; }
 
 void check_picture_extension(const std::string& path) { format_of(path); }
 

@@ -276,8 +276,10 @@ TEST(WritePicture, RefusesUnknownExtensions) {
         EXPECT_THROW(write_picture(folder.file(name), Picture(Image(1, 1, 1))), InvalidArgument)
             << name;
         EXPECT_THROW(check_picture_extension(name), InvalidArgument);
+        EXPECT_FALSE(has_picture_extension(name)) << name;
     }
     check_picture_extension("A.EXR");
+    EXPECT_TRUE(has_picture_extension("A.EXR"));
     EXPECT_THAT(folder.names(), ElementsAre());
 }
 

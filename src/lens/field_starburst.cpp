@@ -86,7 +86,7 @@ wave::VaryingPsf field_starburst(const Lens& lens, const Iris& iris, double pupi
         const std::optional<wave::Shape> outline = pupil_outline(lens, iris, tan_x, tan_y);
         const wave::Psf star = starburst_behind(iris, pupil_diameter_mm, grid, options.psf,
                                                 {nullptr, outline ? &*outline : nullptr});
-        part.halves.push_back(fourier::right_half(wave::windowed(star.kernel, window, false)));
+        part.halves.push_back(fourier::right_half(wave::windowed(star.kernel, window)));
         if (progress == nullptr) continue;
         progress->report("stars over the field", static_cast<double>(part.halves.size()) /
                                                      static_cast<double>(nodes.places.size()));

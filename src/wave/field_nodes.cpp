@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "aureole/base/units.h"
 
@@ -58,16 +59,22 @@ Image radial_window(const KernelGrid& grid, double end_deg) {
     return window;
 }
 
-Image windowed(const Image& kernel, const Image& window, bool outside, double scale) {
+Image radial_ring(const KernelGrid& grid, double from_deg, double end_deg) {
+    const Image inner = radial_window(grid, from_deg);
+    Image ring = radial_window(grid, end_deg);
+    for (std::size_t i = 0; i < ring.pixels(); ++i) ring.plane(0)[i] *= 1 - inner.plane(0)[i];
+    return ring;
+}
+
+Image windowed(const Image& kernel, const Image& window, double scale) {
     Image result(window.width(), window.height(), 3);
     const int shift_x = kernel.width() / 2 - window.width() / 2;
     const int shift_y = kernel.height() / 2 - window.height() / 2;
     for (int c = 0; c < 3; ++c) {
         for (int y = std::max(0, -shift_y); y < window.height() - std::max(0, -shift_y); ++y) {
             for (int x = std::max(0, -shift_x); x < window.width() - std::max(0, -shift_x); ++x) {
-                const float share = outside ? 1 - window.at(x, y) : window.at(x, y);
-                result.at(x, y, c) =
-                    static_cast<float>(scale) * share * kernel.at(x + shift_x, y + shift_y, c);
+                result.at(x, y, c) = static_cast<float>(scale) * window.at(x, y) *
+                                     kernel.at(x + shift_x, y + shift_y, c);
             }
         }
     }

@@ -1,4 +1,4 @@
-// --field-varying: streaks by position.
+// --field-varying and --needles-by-position.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -60,6 +60,37 @@ TEST_F(FieldVarying, ACameraKeepsItsEnergy) {
                 1, 1e-4);
     EXPECT_EQ(json["method"], "nodes");
     EXPECT_GT(json["field_varying"]["kernels"].get<int>(), 1);
+}
+
+TEST_F(FieldVarying, NeedlesDifferAndKeepTheEnergy) {
+    write("in.exr", noise(48, 27, 3));
+    for (const char* more : {"", " --field-varying 30"}) {
+        const Outcome outcome = run(
+            std::string("glare in.exr -o out.exr --fov 20 --pupil 5 --needles-by-position --json") +
+            more);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        const auto json = nlohmann::json::parse(outcome.out);
+        const auto& energy = json["energy"];
+        EXPECT_NEAR((energy["out"].get<double>() + energy["off_picture"].get<double>()) /
+                        energy["in"].get<double>(),
+                    1, 1e-4);
+        EXPECT_EQ(json["method"], "nodes");
+        EXPECT_EQ(json["parameters"]["needles_by_position"], true);
+    }
+    const Outcome plain = run("glare in.exr -o plain.exr --fov 20 --pupil 5");
+    ASSERT_EQ(plain.exit_code, 0) << plain.err;
+    EXPECT_NE(bytes("out.exr"), bytes("plain.exr"));
+}
+
+TEST_F(FieldVarying, NeedlesAreAnEyes) {
+    write("in.exr", noise(8, 8, 3));
+    for (const char* options : {"--observer camera", "--threshold 1", "--corona-contrast 0",
+                                "--scatter none", "--preset thesis", "--passes both"}) {
+        const Outcome outcome =
+            run(std::string("glare in.exr -o out.exr --needles-by-position ") + options);
+        EXPECT_EQ(outcome.exit_code, 2) << options;
+        EXPECT_NE(outcome.err.find("--needles-by-position"), std::string::npos) << outcome.err;
+    }
 }
 
 TEST_F(FieldVarying, RefusesWhatItDoesNotKnow) {

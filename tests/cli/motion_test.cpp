@@ -1,9 +1,7 @@
-// Metering a sequence, and an eye that moves through it: frames do not depend on their order.
+// An eye that moves through a sequence: frames do not depend on their order.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -26,54 +24,10 @@ class Motion : public CliTest {
             write(numbered("in", frame), picture);
         }
     }
-    std::vector<std::vector<double>> table(const std::string& name) const {
-        std::istringstream stream(bytes(name));
-        std::string line;
-        std::getline(stream, line);
-        std::vector<std::vector<double>> rows;
-        while (std::getline(stream, line)) {
-            std::istringstream cells(line);
-            rows.emplace_back();
-            for (std::string cell; std::getline(cells, cell, ',');) {
-                rows.back().push_back(std::stod(cell));
-            }
-        }
-        return rows;
-    }
 };
 
 // Quick, and its scatter knows the pupil.
 const std::string kMovingEye = kPlainEye + " --scatter ijspeert --fps 24 --blink auto --seed 3 ";
-
-TEST_F(Motion, MeterWritesLuminancesAndTheirDampedAdaptation) {
-    write_frames(48);
-    ASSERT_EQ(run("meter in.%04d.exr --frames 0-47 -o a.csv --fps 24 --fov 40").exit_code, 0);
-    EXPECT_EQ(bytes("a.csv").substr(0, 79),
-              "frame,time_s,mean_cd_m2,log_mean_cd_m2,central_cd_m2,adaptation_cd_m2\n0,0,2.255");
-    const auto rows = table("a.csv");
-    ASSERT_EQ(rows.size(), 48U);
-    const double dark = 2 + 0.98 * 100 / 384;
-    const double lit = 2 + (4000 - 0.02) * 100 / 384;
-    for (std::size_t i = 0; i < 48; ++i) {
-        EXPECT_EQ(rows[i][0], static_cast<double>(i));
-        EXPECT_NEAR(rows[i][1], static_cast<double>(i) / 24, 1e-12);
-        EXPECT_NEAR(rows[i][2] / (i < 16 ? dark : lit), 1, 1e-5);
-        EXPECT_NEAR(rows[i][3], 2 * std::pow(i < 16 ? 50 : 200000, 1.0 / 384), 1e-3);
-        EXPECT_NEAR(rows[i][4], 2, 1e-4);  // the lamp is off the axis
-        EXPECT_GE(rows[i][5], dark * 0.999);
-        EXPECT_LE(rows[i][5], lit * 1.001);
-        if (i > 0) {
-            EXPECT_GE(rows[i][5], rows[i - 1][5] * 0.999999);
-        }
-    }
-    // Nothing within the delay of .2 s; most of it after a second.
-    EXPECT_NEAR(rows[19][5] / dark, 1, 1e-5);
-    EXPECT_LT(rows[21][5], lit / 10);
-    EXPECT_GT(rows[47][5], lit / 2);
-    ASSERT_EQ(run("meter in.%04d.exr --frames 0-47 -o b.csv --fov 40 --adapt-to central").exit_code,
-              0);
-    EXPECT_NEAR(table("b.csv")[47][5], 2, 1e-4);
-}
 
 TEST_F(Motion, FramesAreTheSameForwardsBackwardsAndInTwoHalves) {
     write_frames(48);
@@ -130,7 +84,9 @@ TEST_F(Motion, LidsDimAndTheLightTheyBlockIsCounted) {
         darkest = std::min(darkest, share);
     }
     EXPECT_LT(darkest, 0.3);
-    const auto streaks = report(common + "--blink streaks --time 1.05");
+    const auto streaks = report(
+        "glare in.exr -o out.exr --fov 40 --adaptation 10 --halo 0 "
+        "--corona-contrast 0 --blink streaks --time 1.05");
     EXPECT_EQ(streaks["parameters"]["light_share"], 1);
 }
 
@@ -146,6 +102,77 @@ TEST_F(Motion, ClosedLidsLeaveABlackPicture) {
         least = std::min(least, largest(read("out.exr").image()));
     }
     EXPECT_LT(least, 0.002 * 1000);
+}
+
+// Light beyond the core of a light, frame by frame through a blink: it fades with what the lids let
+// through, down to darkness, and its share of what is left never jumps.
+TEST_F(Motion, GlareFadesWithTheLidsAndNeverJumps) {
+    constexpr int kFrames = 15;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        write(numbered("in", frame), point(48, 27, 3, 24, 13, 1e5F));
+    }
+    ASSERT_EQ(run("glare in.%04d.exr -o out.%04d.exr --frames 0-14 --fov 20 --pupil 6 --blink .35 "
+                  "--time .41 --fps 500")
+                  .exit_code,
+              0);
+    struct Light {
+        double all = 0;
+        double beyond = 0;
+    };
+    std::vector<Light> lights;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        const Image out = read(numbered("out", frame)).image();
+        Light& light = lights.emplace_back();
+        for (int y = 0; y < out.height(); ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                const double value = out.at(x, y, 1) / 1e5;
+                light.all += value;
+                if (std::hypot(x - 24, y - 13) > 1.5) light.beyond += value;
+            }
+        }
+    }
+    double darkest = 1;
+    for (std::size_t i = 1; i < lights.size(); ++i) {
+        const Light& before = lights[i - 1];
+        const Light& now = lights[i];
+        darkest = std::min(darkest, now.all);
+        EXPECT_LE(std::abs(now.beyond - before.beyond), std::abs(now.all - before.all) + 1e-6) << i;
+        if (now.all == 0 || before.all == 0) continue;
+        EXPECT_NEAR(now.beyond / now.all, before.beyond / before.all, 0.02) << i;
+    }
+    EXPECT_LT(darkest, 0.001);
+}
+
+// Of closed lids the kernel is that of their last opening, and a note says so.
+TEST_F(Motion, ClosedLidsHaveAKernel) {
+    const std::string psf = "psf -o k.exr --size 9 --scatter none --pupil 6 --blink .35 --time ";
+    const Outcome outcome = run(psf + ".428");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_TRUE(names_all(outcome.err, {"--time 0.428", "closed", "light_share"})) << outcome.err;
+    const Image closed = read("k.exr").image();
+    const double share = report(psf + ".428")["parameters"]["light_share"];
+    EXPECT_GT(share, 0);
+    EXPECT_LT(share, 0.002);
+    ASSERT_EQ(run(psf + ".43").exit_code, 0);
+    EXPECT_LT(largest_difference(closed, read("k.exr").image()), 0.01 * largest(closed));
+}
+
+// With --time a picture tells its own luminance, to lids too; with --fps nothing does.
+TEST_F(Motion, LidsSquintWhereTheLuminanceIsKnown) {
+    write("bright.0001.exr", constant(24, 16, 3, 500));
+    const auto eyelid = [&](const std::string& words) {
+        const auto json = report("glare bright.0001.exr -o o.exr --fov 40 --pupil 3 --time 1 " +
+                                 words + kPlainEye);
+        return json["parameters"]["eyelid"].get<double>();
+    };
+    EXPECT_NEAR(eyelid("--squint .8"), 0.8, 1e-9);
+    EXPECT_NEAR(eyelid(""), 0.5, 1e-9);
+    EXPECT_EQ(eyelid("--squint 0"), 0);
+    EXPECT_EQ(eyelid("--squint .8 --adaptation 100"), 0);
+    const auto json = report(
+        "glare bright.%04d.exr -o o.%04d.exr --frames 1 --fov 40 --pupil 3 --fps 24" + kPlainEye);
+    EXPECT_EQ(json["parameters"]["squint"], 0);
+    EXPECT_EQ(json["parameters"]["eyelid"], 0);
 }
 
 TEST_F(Motion, FollowsTheHeadThroughATable) {
@@ -191,42 +218,6 @@ TEST_F(Motion, PsfOfAMomentIsTheEyeOfThatMoment) {
     EXPECT_TRUE(identical(read("a.exr").image(), read("b.exr").image()));
     ASSERT_EQ(run(other + "3").exit_code, 0);
     EXPECT_FALSE(identical(read("a.exr").image(), read("b.exr").image()));
-}
-
-TEST_F(Motion, SaysWhatIsMissingOrWrong) {
-    write_frames(2);
-    const auto fails = [&](const std::string& words, int code,
-                           const std::vector<std::string>& named) {
-        const Outcome outcome = run(words);
-        EXPECT_EQ(outcome.exit_code, code) << words;
-        EXPECT_TRUE(names_all(outcome.err, named)) << outcome.err;
-        EXPECT_FALSE(exists("out.exr"));
-    };
-    const std::string one = "glare in.0000.exr -o out.exr --fov 40 ";
-    fails(one + "--blink auto", 2, {"--blink", "--time"});
-    fails(one + "--adaptation a.csv", 2, {"a.csv", "--time"});
-    fails(one + "--adaptation a.csv --time 1", 1, {"a.csv"});
-    fails("glare in.%04d.exr --frames 0-1 -o out.%04d.exr --fps 24", 2,
-          {"--fps", "--adaptation", "meter"});
-    fails(one + "--time 1 --squint 2", 2, {"--squint", "0.8"});
-    fails(one + "--time 1 --fps 0", 2, {"--fps", "above 0"});
-    fails(one + "--time 1 --observer camera", 2, {"--time", "--observer"});
-    fails(one + "--time 1 --blink 3,1", 2, {"time", "later"});
-    write_bytes("bad.csv", "time_s,adaptation_cd_m2\n0,1\n1,bright\n");
-    fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "line 3", "bright", "number"});
-    write_bytes("bad.csv", "time_s,luminance\n0,1\n");
-    fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "adaptation_cd_m2", "luminance"});
-    write_bytes("bad.csv", "time_s,adaptation_cd_m2\n0,1\n0,1\n");
-    fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "later"});
-    write_bytes("bad.csv", "");
-    fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "no numbers"});
-    const std::string psf = "psf -o out.exr --size 9 ";
-    fails(psf + "--blink auto", 2, {"--blink", "--time"});
-    fails(psf + "--adaptation a.csv", 2, {"a.csv", "--time"});
-    fails(psf + "--time 1 --fps 24", 2, {"--fps"});
-    fails(psf + "--time 1 --observer camera", 2, {"--time", "--observer"});
-    fails("meter in.%04d.exr -o a.csv", 2, {"--frames"});
-    fails("meter missing.exr -o a.csv", 1, {"missing.exr"});
 }
 
 }  // namespace

@@ -153,9 +153,9 @@ void check(const FieldPosition& field);
 // ---- The layers, drawn one by one. Each depends on the eye and its own random stream only, so
 // that changing one leaves the others as they are. ----
 //
-// Pupil, lids and lashes are drawn as a source at `field` sees them: what lies distance_mm before
-// the pupil is displaced by -distance_mm (tan x, tan y), and everything is foreshortened along the
-// direction of the source by the cosine of its angle.
+// Layers are drawn as a source at `field` sees them: what lies distance_mm before the pupil is
+// displaced by -distance_mm (tan x, tan y), what lies behind it the other way, and everything is
+// foreshortened along the direction of the source by the cosine of its angle.
 
 // Amplitude transmission of the pupil, upper lid included: 1 inside, 0 outside.
 // Throws InvalidArgument if the lid leaves no opening on the axis; from elsewhere light may meet
@@ -164,12 +164,15 @@ wave::Mask draw_pupil(const Eye& eye, const wave::ApertureGrid& grid,
                       const FieldPosition& field = {});
 
 enum class ParticleLayer {
-    kLens,      // small and large; moves with the lens
+    kLens,      // small and large, through its 3.6 mm; moves with the lens
     kVitreous,  // in two depths, 4 and 8 mm behind the pupil; moves when eye and head turn
-    kCornea,    // static
+    kCornea,    // static, 3.05 mm before the pupil
 };
 // Adds 1 wherever a particle of the layer lies (antialiased; overlapping particles add up).
-void add_particles(const Eye& eye, ParticleLayer layer, wave::Mask& coverage);
+// There is more of a layer than the disc that is drawn: a particle that leaves it, because the eye
+// moves or the source lies aside, enters again at the other end of the chord.
+void add_particles(const Eye& eye, ParticleLayer layer, wave::Mask& coverage,
+                   const FieldPosition& field = {});
 
 // Multiplies the field by the delay of the lens fibres, as a phase.
 void multiply_gratings(const Eye& eye, wave::Field& field);

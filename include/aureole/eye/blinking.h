@@ -17,7 +17,8 @@ struct BlinkSettings {
     // kSpontaneous. Men blink 11, women 19 times a minute (Sforza et al. 2008, "Spontaneous
     // blinking in healthy persons", Ophthalmic and Physiological Optics 28:345). 1 to 60.
     double per_minute = 15;
-    std::vector<double> voluntary_s = {};  // kVoluntary: when the lids begin to close; ascending
+    std::vector<double> voluntary_s = {};  // kVoluntary: when the lids begin to close; ascending,
+                                           // within kFarthestTimeS of 0 (ranges.h)
     // Lashes come down with the lids and bend, but the lids cover nothing and no light is lost: for
     // people who look at a screen and blink themselves (thesis, section 2.4).
     bool streaks_only = false;

@@ -24,7 +24,7 @@ struct FieldPsfOptions {
     // 0.5 to 30. The error falls in proportion, the number of kernels rises with its square.
     double spacing_deg = 1.1;
     double centre_deg = 0.5;  // where centre and rays meet; 0.2 to 5
-    double reach_deg = 4.6;   // where rays are cut off; they have faded by then. Above centre_deg
+    double reach_deg = 6.5;   // where rays have been faded out. Above centre_deg
     // 0: kernels of all nodes are kept. K > 0: the mean and K principal components of those of the
     // centre, and as many of the rays (fourier::principal_components): less memory, a larger error.
     int rank = 0;

@@ -29,8 +29,9 @@ class Gaze {
   public:
     // A gaze that rests.
     Gaze() = default;
-    // Through given rotations, straight between them, at rest before and after. Times ascend; as
-    // many rotations as times, one at least, finite. Throws InvalidArgument.
+    // Through given rotations, straight between them, at rest before and after. Times ascend,
+    // within kFarthestTimeS of 0 (ranges.h); as many rotations as times, one at least, angles
+    // within 1e6 deg. Throws InvalidArgument.
     static Gaze through(std::vector<double> times_s, std::vector<Rotation> rotations);
     // Looking around a picture: three fixations a second, their directions normally distributed
     // with 5.3 deg in yaw and pitch each, so that 86 % of the saccades are shorter than 15 deg
@@ -38,6 +39,9 @@ class Gaze {
     // degrees or less"). A saccade of A deg lasts 21 ms + 2.2 ms A (Carpenter 1988, "Movements of
     // the Eyes").
     static Gaze saccades(std::uint64_t seed);
+
+    // The moments that through() was given; otherwise none.
+    const std::vector<double>& times_s() const noexcept { return times_s_; }
 
     Rotation at(double time_s) const noexcept;
     // Rotation of the vitreous against the eye. The gaze is made of straight lines, so gaze'' of

@@ -6,13 +6,13 @@
 namespace aureole::eye {
 
 // Luminances at given times. Their logarithms are joined by straight lines; the first and the last
-// hold before and after. Luminances below 1e-6 cd/m2 (darkness) are taken as that.
+// hold before and after. Luminances below kDarknessCdM2 are taken as that (ranges.h).
 class LuminanceCurve {
   public:
     // The same at all times.
     explicit LuminanceCurve(double luminance_cd_m2);
-    // As many luminances as times, one at least; times ascend.
-    // Throws InvalidArgument for anything else, and for luminances that are negative or not finite.
+    // As many luminances as times, one at least; times ascend, within kFarthestTimeS of 0.
+    // Both throw InvalidArgument for anything else, and for luminances outside 0 to kBrightestCdM2.
     LuminanceCurve(std::vector<double> times_s, const std::vector<double>& luminances_cd_m2);
 
     double at(double time_s) const noexcept;  // cd/m2

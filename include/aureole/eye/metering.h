@@ -13,7 +13,7 @@ double mean_luminance(const ConstImageView& picture);
 // In cd/m2.
 struct MeteredLuminance {
     double mean = 0;
-    double log_mean = 0;  // exp of the mean of ln L, L at least 1e-6 cd/m2: of the typical pixel
+    double log_mean = 0;  // exp of the mean of ln L, L at least kDarknessCdM2: of the typical pixel
     double central = 0;  // mean within kCentralRadiusDeg of the optical axis; the mean of all if no
                          // pixel's centre lies there
 };

@@ -44,15 +44,17 @@ struct Moment {
     double squint = 0;  // 0 to MotionSettings::squint
     // What the lids let through, over what those of the eye at rest do. The picture dims by it.
     double light_share = 1;
-    // Ready to be drawn: pupil, lids and pose. Of closed lids (below) it is the last one that has
-    // an opening.
+    // Ready to be drawn: pupil, lids and pose. Of closed lids it is the last one that has an
+    // opening, so that glare fades with light_share and never jumps.
     Eye eye;
-    bool closed = false;  // less than 0.2 % of the pupil is open: there is nothing to spread
+    bool closed = false;  // less than 0.2 % of the pupil is open
 };
 
 class LivingEye {
   public:
-    // `rest` gives everything that does not move, and the lids between blinks; its pupil is
+    // `rest` gives everything that does not move, the lids between blinks, and what moves is put on
+    // top of: fluctuations multiply pose.lens_scale, and lashes are never less closed than
+    // pose.lash_closure. Its pupil and the turns of its vitreous (pose.vitreous_*_deg) are
     // replaced. `adaptation` is the luminance that the pupil answers to, damped already
     // (damped_luminance_cd_m2, `aureole meter`).
     // Throws InvalidArgument for values out of range.
@@ -61,7 +63,8 @@ class LivingEye {
     LivingEye(LivingEye&&) noexcept;
     LivingEye& operator=(LivingEye&&) noexcept;
 
-    // Continuous in time. Times may be negative.
+    // Continuous in time. Times may be negative; beyond kFarthestTimeS of 0 (ranges.h) the eye is
+    // as it is there.
     Moment at(double time_s) const noexcept;
 
   private:

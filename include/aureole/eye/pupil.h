@@ -32,9 +32,10 @@ struct PupilConditions {
     bool both_eyes = true;          // one eye alone counts as a tenth of the light
 };
 
-// Diameter in mm, 1.2 to 8.3. luminance_cd_m2 >= 0; below 1e-6 it is taken as 1e-6 (darkness).
-// Throws InvalidArgument for a negative or non-finite luminance, an age outside 1 to 120, an area
-// that is not in (0, 41253] deg^2.
+// Diameter in mm, 1.2 to 8.3. luminance_cd_m2: 0 to kBrightestCdM2; below kDarknessCdM2 it is taken
+// as that (ranges.h).
+// Throws InvalidArgument for another luminance, an age outside 1 to 120, an area that is not in
+// (0, 41253] deg^2.
 double pupil_diameter_mm(PupilModel model, double luminance_cd_m2,
                          const PupilConditions& conditions = {});
 

@@ -14,6 +14,8 @@ inline constexpr double kThesisFramesPerSecond = 30;
 inline constexpr int kThesisGratingsOffset = 5;
 // Lids move as the pupil does, "but at a different frequency": this many times slower, assumed.
 inline constexpr int kThesisLidsSlowness = 2;
+// Frames until all books are open at the same pages again.
+inline constexpr int kThesisRepeat = 7080;
 
 // Which page of each book is open, 0 to 59. The default is an eye at rest: lids open, the rest in
 // the middle of its range.
@@ -29,9 +31,10 @@ struct ThesisFrames {
 int thesis_ping_pong(std::int64_t step) noexcept;
 
 // The pages at a moment counted in frames. Pupil, gratings and lids go back and forth, particles
-// begin again: the whole repeats after 7080 frames.
+// begin again: the whole repeats after kThesisRepeat frames.
 ThesisFrames thesis_frames(std::int64_t frame) noexcept;
-// The frame at a time: floor(30 t), so that frame n is there at n / 30 s.
+// The frame at a time: floor(30 t), so that frame n is there at n / 30 s. Times beyond
+// kFarthestTimeS of 0 (ranges.h) are taken as that.
 std::int64_t thesis_frame_at(double time_s) noexcept;
 
 // What the pages show. From page to page the pupil follows the rising half of a sine between the

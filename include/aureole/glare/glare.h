@@ -140,7 +140,7 @@ struct MethodReport {
     Raster raster;
     // Both over the sum of solid angle times |light|.
     double error_bound = 0;
-    double energy_cut = 0;  // at most, light that ended with sprites or a kernel's end
+    double energy_cut = 0;  // at most, light that ended with sprites
 };
 std::string_view name_of(MethodReport::Reason reason) noexcept;
 

@@ -147,8 +147,9 @@ struct WriteReport {
 WriteReport write_picture(const std::string& path, const Picture& picture,
                           const WriteOptions& options = {});
 
-// Throws InvalidArgument unless write_picture() knows the extension: to fail before hours of work
-// instead of after.
+// Whether write_picture() knows the extension.
+bool has_picture_extension(const std::string& path);
+// Throws InvalidArgument unless it does: to fail before hours of work instead of after.
 void check_picture_extension(const std::string& path);
 
 }  // namespace aureole::io

@@ -30,8 +30,11 @@ KernelGrid grid_within(const View& view, double angle_deg);
 // that, so that no edge shows between what is blended over different nodes.
 Image radial_window(const KernelGrid& grid, double end_deg);
 
-// scale * window * kernel, or with `outside` scale * (1 - window) * kernel: the middle of a kernel
-// on the window's grid.
-Image windowed(const Image& kernel, const Image& window, bool outside, double scale = 1);
+// What lies between: 0 where the window to `from_deg` is 1, then rising to 1 as that falls, and
+// falling to 0 at `end_deg` as the window to that does.
+Image radial_ring(const KernelGrid& grid, double from_deg, double end_deg);
+
+// scale * window * kernel: the middle of a kernel on the window's grid.
+Image windowed(const Image& kernel, const Image& window, double scale = 1);
 
 }  // namespace aureole::wave
