@@ -31,7 +31,7 @@ OptionOf option_of(const std::string& parameter) {
         {"age_years", "--age"},
         {"pigmentation", "--pigmentation"},
         {"scatter", "--scatter"},
-        {"corona_contrast", "--corona-contrast", "", " (--preset gives it, or the option)"},
+        {"corona_contrast", "--corona-contrast", "", " (by --preset or the option itself)"},
         {"eyelashes", "--eyelashes"},
         {"seed", "--seed"},
         {"pupil.shape", "--pupil-shape"},
