@@ -217,9 +217,9 @@ void FlipbookPlayer::write(const Eye& now, wave::Psf& psf) noexcept {
         return weight;
     };
     const double streak_share = now.streaks * weight_of(streaks);
-    const double halo_weight = visible_halo_weight(now);
-    const double limit = diffracted_limit(halo_weight * weight_of(halo) + streak_share);
-    const double halo_scale = halo_weight * limit;
+    const double of_halo = visible_halo_weight(now);
+    const double limit = diffracted_limit(of_halo * weight_of(halo) + streak_share);
+    const double halo_scale = of_halo * limit;
     const double streak_scale = now.streaks * limit;
 
     std::array<double, 3> rest = {1, 1, 1};  // 1 - c
