@@ -1,5 +1,5 @@
 // A new PSF from a flipbook against direct computation: 511x511 pixels for 1080p at 60 deg, an eye
-// between frames (its halo blended of two, its streaks of eight).
+// between frames (its halo blended of four, its streaks of eight).
 #include <benchmark/benchmark.h>
 
 #include "aureole/base/parallel.h"

@@ -25,8 +25,9 @@ struct BakeCommand {
     void add_options(CLI::App& command);
     void run();
     void check();
-    // Measures and reports how far the book is from direct computation.
-    void measure(const eye::Flipbook& book, const eye::Eye& eye, const eye::EyePsfOptions& options);
+    // Measures and reports how far the book is from direct computation; a summary of it.
+    std::string measure(const eye::Flipbook& book, const eye::Eye& eye,
+                        const eye::EyePsfOptions& options);
 
     Session session;
     ViewOptions view_options;
@@ -38,16 +39,16 @@ struct BakeCommand {
     std::string pupils = "2,8";
     std::string texture_frames;
     int halo_frames = eye::FlipbookRange().halo_pupils;
-    std::string streak_frames;
+    int streak_frames = eye::FlipbookRange().streak_pupils;
+    int lid_states = eye::FlipbookRange().lid_states;
     int poses = 4;
     eye::FlipbookRange range;
 };
 
 void BakeCommand::add_options(CLI::App& command) {
     const eye::FlipbookRange usual;
-    texture_frames =
-        fmt::format("{},{},{}", usual.texture_pupils, usual.lens_states, usual.vitreous_phases);
-    streak_frames = fmt::format("{},{}", usual.streak_pupils, usual.lid_states);
+    texture_frames = fmt::format("{},{},{},{}", usual.texture_pupils, usual.lens_states,
+                                 usual.vitreous_phases, usual.covered_phases);
     command.add_option("-o,--output", output, "The flipbook: for `aureole glare --book`")
         ->required()
         ->type_name("BOOK");
@@ -70,24 +71,34 @@ void BakeCommand::add_options(CLI::App& command) {
     group.add_option("--pupils", pupils, "Smallest and largest pupil, 1 to 9 mm")
         ->type_name("MM,MM")
         ->capture_default_str();
+    whole_number(group.add_option("--lid-states", lid_states,
+                                  fmt::format("Closures of lids and lashes, from open to {:.0f} %",
+                                              100 * usual.largest_closure)),
+                 1, 100)
+        ->type_name("C")
+        ->capture_default_str();
     group
         .add_option("--texture-frames", texture_frames,
-                    "Of the corona: pupils, states of the lens (odd), phases of the vitreous; "
-                    "P x (L + V - 1) frames")
-        ->type_name("P,L,V")
+                    "Of the corona: pupils, states of the lens (odd) and phases of the vitreous "
+                    "with open lids, phases behind closing ones; P x (L + V - 1 + (C - 1) x B) "
+                    "frames")
+        ->type_name("P,L,V,B")
         ->capture_default_str();
-    whole_number(
-        group.add_option("--halo-frames", halo_frames, "Of the halo: pupils, from 4 mm on"), 1, 100)
+    whole_number(group.add_option("--halo-frames", halo_frames,
+                                  "Of the halo: pupils, from 4 mm on; P x C frames"),
+                 1, 100)
         ->type_name("P")
         ->capture_default_str();
-    group
-        .add_option("--streak-frames", streak_frames,
-                    "Of the streaks: pupils, states of lids and lashes; P x (2 L - 1) frames")
-        ->type_name("P,L")
+    whole_number(group.add_option("--streak-frames", streak_frames,
+                                  "Of the streaks: pupils; P x (2 C - 1) frames, of lashes alone "
+                                  "and of lids"),
+                 1, 100)
+        ->type_name("P")
         ->capture_default_str();
     whole_number(group.add_option("--measure", poses,
-                                  "Poses at frames, and as many between, at which the book is "
-                                  "compared with direct computation; 0: none"),
+                                  "Poses at which the book is compared with direct computation: "
+                                  "so many at frames and between, with open and with closing "
+                                  "lids; 0: none"),
                  0, 100)
         ->type_name("N")
         ->capture_default_str();
@@ -126,18 +137,28 @@ void BakeCommand::check() {
     }
     range.pupil_from_mm = (*limits)[0];
     range.pupil_to_mm = (*limits)[1];
-    const std::vector<int> texture = whole_numbers("--texture-frames", texture_frames, 3);
+    const std::vector<int> texture = whole_numbers("--texture-frames", texture_frames, 4);
     range.texture_pupils = texture[0];
     range.lens_states = texture[1];
     range.vitreous_phases = texture[2];
+    range.covered_phases = texture[3];
     if (range.lens_states % 2 == 0) {
         throw InvalidArgument("--texture-frames", texture_frames,
                               "states of the lens must be odd: the middle one is at rest");
     }
     range.halo_pupils = halo_frames;
-    const std::vector<int> streaks = whole_numbers("--streak-frames", streak_frames, 2);
-    range.streak_pupils = streaks[0];
-    range.lid_states = streaks[1];
+    range.streak_pupils = streak_frames;
+    range.lid_states = lid_states;
+    if (eye_options.by_color()) {
+        throw InvalidArgument("--source-spectrum", "rgb",
+                              "must be a lamp's: a flipbook has no PSF for each colour of light");
+    }
+}
+
+// A number as a number.
+nlohmann::ordered_json json_of(const std::string& value) {
+    auto number = nlohmann::ordered_json::parse(value, nullptr, false);
+    return number.is_number() ? number : nlohmann::ordered_json(value);
 }
 
 nlohmann::ordered_json json_of(const eye::FlipbookErrors& errors) {
@@ -146,14 +167,36 @@ nlohmann::ordered_json json_of(const eye::FlipbookErrors& errors) {
             {"psf", errors.psf},     {"worst_ring", errors.worst_ring}};
 }
 
-void BakeCommand::measure(const eye::Flipbook& book, const eye::Eye& eye,
-                          const eye::EyePsfOptions& options) {
+std::string BakeCommand::measure(const eye::Flipbook& book, const eye::Eye& eye,
+                                 const eye::EyePsfOptions& options) {
     auto& json = session.json()["errors"];
+    std::string at_frames;
+    std::string between_frames;
+    const auto measure_with = [&](eye::FlipbookLids lids, const char* key, const char* words) {
+        const auto at = errors_at_frames(book, eye, options, lids, poses, &session);
+        if (at.poses == 0) return;
+        const auto between = errors_between_frames(book, eye, options, lids, poses, &session);
+        json["from_deg"] = at.from_deg;
+        json["to_deg"] = at.to_deg;
+        json["at_frames"][key] = json_of(at);
+        json["between_frames"][key] = json_of(between);
+        at_frames += fmt::format("{}{:.2g} %{}", at_frames.empty() ? "at its frames within " : ", ",
+                                 100 * at.worst_ring, words);
+        between_frames += fmt::format(
+            "between them{}: texture {:.0f} %, halo {:.0f} %, streaks {:.0f} %, all {:.1f} %\n",
+            words, 100 * between.texture, 100 * between.halo, 100 * between.streaks,
+            100 * between.psf);
+    };
     session.timed("measure", [&] {
-        json["at_frames"] = json_of(errors_at_frames(book, eye, options, poses, &session));
-        json["between_frames"] =
-            json_of(errors_between_frames(book, eye, options, poses, &session));
+        measure_with(eye::FlipbookLids::kOpen, "open_lids", "");
+        measure_with(eye::FlipbookLids::kCovering, "covering_lids", " behind closing lids");
     });
+    if (at_frames.empty())
+        return "no pose to measure: its patterns end within 0.3 deg, or no "
+               "frames of all its terms belong together\n";
+    return fmt::format("{} (worst ring from {:.2g} to {:.2g} deg)\n{}", at_frames,
+                       json["from_deg"].get<double>(), json["to_deg"].get<double>(),
+                       between_frames);
 }
 
 void BakeCommand::run() {
@@ -163,6 +206,10 @@ void BakeCommand::run() {
     const wave::KernelGrid grid = wave::KernelGrid::square(view, size - 1);
     constexpr double kAnyLuminance = 10;  // the pupil does not matter
     const eye::Eye eye = eye_options.eye(kAnyLuminance, view);
+    if (eye.scatter == eye::ScatterModel::kNone) {
+        throw InvalidArgument("--scatter", "none",
+                              "must be cie or ijspeert: what a flipbook stores is relative to it");
+    }
     eye::EyePsfOptions options;
     options.spectral = eye_options.sampling();
     const std::vector<std::byte> bytes = session.timed(
@@ -176,12 +223,14 @@ void BakeCommand::run() {
                       {"halo", frames[eye::Component::kHalo]},
                       {"streaks", frames[eye::Component::kStreaks]}};
     json["bytes"] = bytes.size();
-    if (poses > 0) measure(book, eye, options);
+    std::string summary = fmt::format("{}\n{} frames, {:.1f} MB\n", output, book.frames().size(),
+                                      static_cast<double>(bytes.size()) / 1e6);
+    if (poses > 0) summary += measure(book, eye, options);
     session.check_interrupt();
     session.timed("write", [&] { io::write_binary_file(output, bytes); });
 
     auto& parameters = json["parameters"];
-    for (const auto& [name, value] : book.identity()) parameters[name] = value;
+    for (const auto& [name, value] : book.identity()) parameters[name] = json_of(value);
     parameters.update(
         {{"width", view.width},
          {"height", view.height},
@@ -190,27 +239,15 @@ void BakeCommand::run() {
          {"pitch_deg", grid.pitch_deg},
          {"size", size},
          {"pupils_mm", {range.pupil_from_mm, range.pupil_to_mm}},
-         {"texture_frames", {range.texture_pupils, range.lens_states, range.vitreous_phases}},
+         {"texture_frames",
+          {range.texture_pupils, range.lens_states, range.vitreous_phases, range.covered_phases}},
          {"halo_frames", range.halo_pupils},
-         {"streak_frames", {range.streak_pupils, range.lid_states}},
+         {"streak_frames", range.streak_pupils},
+         {"lid_states", range.lid_states},
          {"lens_scale_span", range.lens_scale_span},
          {"vitreous_step_deg", range.vitreous_step_deg},
          {"largest_closure", range.largest_closure},
          {"threads", thread_count()}});
-    std::string summary = fmt::format("{}\n{} frames, {:.1f} MB\n", output, book.frames().size(),
-                                      static_cast<double>(bytes.size()) / 1e6);
-    if (poses > 0) {
-        const auto& errors = json["errors"];
-        const auto percent = [](const nlohmann::ordered_json& value) {
-            return 100 * value.get<double>();
-        };
-        summary += fmt::format(
-            "at its frames within {:.2g} % (worst ring from 0.3 to 5 deg), between them texture "
-            "{:.0f} %, halo {:.0f} %, streaks {:.0f} %, all {:.1f} %\n",
-            percent(errors["at_frames"]["worst_ring"]),
-            percent(errors["between_frames"]["texture"]), percent(errors["between_frames"]["halo"]),
-            percent(errors["between_frames"]["streaks"]), percent(errors["between_frames"]["psf"]));
-    }
     session.finish(summary);
 }
 

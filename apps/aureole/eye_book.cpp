@@ -6,6 +6,7 @@
 #include <array>
 
 #include "aureole/base/error.h"
+#include "option_checks.h"
 
 namespace aureole::app {
 namespace {
@@ -19,23 +20,40 @@ eye::Flipbook checked_book(const std::string& path, const io::MappedFile& file) 
 }
 
 // The option that gives a parameter of an eye.
-std::string option_of(const std::string& parameter) {
-    constexpr std::array<std::array<const char*, 2>, 10> kOptions = {{
+struct OptionOf {
+    const char* parameter;
+    const char* option;
+    const char* before_value = "";
+    const char* note = "";  // after the value
+};
+OptionOf option_of(const std::string& parameter) {
+    static constexpr std::array<OptionOf, 10> kOptions = {{
         {"age_years", "--age"},
         {"pigmentation", "--pigmentation"},
         {"scatter", "--scatter"},
-        {"corona_contrast", "--corona-contrast (or --preset)"},
+        {"corona_contrast", "--corona-contrast", "", " (by --preset or the option itself)"},
         {"eyelashes", "--eyelashes"},
         {"seed", "--seed"},
         {"pupil.shape", "--pupil-shape"},
-        {"pupil.axis_ratio", "--pupil-shape ellipse:"},
+        {"pupil.axis_ratio", "--pupil-shape", "ellipse:"},
         {"pupil.rotation_deg", "--pupil-rotation"},
         {"source_spectrum", "--source-spectrum"},
     }};
-    const auto* const found =
-        std::find_if(kOptions.begin(), kOptions.end(),
-                     [&](const auto& option) { return parameter == option[0]; });
-    return found == kOptions.end() ? parameter : (*found)[1];
+    const auto* const found = std::find_if(kOptions.begin(), kOptions.end(), [&](const auto& one) {
+        return parameter == one.parameter;
+    });
+    return found == kOptions.end() ? OptionOf{parameter.c_str(), parameter.c_str()} : *found;
+}
+
+// Numbers to six digits, if these tell the two values apart.
+std::array<std::string, 2> in_few_digits(const std::string& one, const std::string& other) {
+    const auto short_form = [](const std::string& value) {
+        const auto number = given_number(value);
+        return number ? fmt::format("{:.6g}", *number) : value;
+    };
+    std::array<std::string, 2> both = {short_form(one), short_form(other)};
+    if (both[0] == both[1]) both = {one, other};
+    return both;
 }
 
 bool same(const wave::KernelGrid& a, const wave::KernelGrid& b) {
@@ -57,7 +75,10 @@ void EyeBook::open_for(const eye::Eye& eye, const eye::SpectralSampling& samplin
                                           path_, what, baked, here));
     };
     if (const auto difference = book_.difference(eye, sampling)) {
-        refuse(option_of(difference->name), difference->here, difference->in_book);
+        const OptionOf option = option_of(difference->name);
+        const auto [here, baked] = in_few_digits(difference->here, difference->in_book);
+        refuse(option.option, option.before_value + here + option.note,
+               option.before_value + baked);
     }
     const wave::KernelGrid& raster = book_.grid();
     const auto name = [](Projection projection) {

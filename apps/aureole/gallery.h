@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "aureole/color/illuminant.h"
 #include "aureole/eye/anatomy.h"
 #include "aureole/image/image.h"
 #include "aureole/image/view.h"
@@ -26,7 +27,8 @@ struct Panel {
     // The eye before its preset, which gives it its look (gallery_render.h).
     eye::Eye eye;
     std::string preset = "physical";
-    double light_share = 1;  // what the lids let through
+    color::Illuminant spectrum = color::Illuminant::kD65;  // of the light that makes glare
+    double light_share = 1;                                // what the lids let through
 };
 
 struct Content {

@@ -116,7 +116,7 @@ nlohmann::ordered_json energy_json(const PanelEnergy& energy) {
             {"off_picture", energy.off_picture},
             {"from_surround", energy.from_surround},
             {"blocked", energy.blocked},
-            {"added", energy.added}};
+            {"spread", energy.spread}};
 }
 
 // The line beneath a panel's label.
@@ -140,13 +140,14 @@ void GalleryCommand::render_frames(const Case& one, const Content& content, Inde
         const RenderedPanel rendered = renderer.render(frame);
         const std::string frame_name = fmt::format("{}.{:04}.png", name, i);
         io::write_picture(file(frame_name), io::Picture(rendered.display));
+        entry.frame_rows.push_back(
+            {frame.label, rendered.parameters, energy_json(rendered.energy)});
         report["frames"].push_back({{"label", frame.label},
                                     {"parameters", rendered.parameters},
-                                    {"energy", energy_json(rendered.energy)}});
+                                    {"energy", entry.frame_rows.back().energy}});
         if (i == 0) entry.first_frame = frame_name;
         advance();
     }
-    entry.frames = static_cast<int>(content.frames.size());
     entry.frames_text = one.frames;
     const std::string video = name + ".mp4";
     const std::string staging = std::filesystem::path(files->path(video)).parent_path().string();

@@ -35,6 +35,9 @@ th, td { padding: .2rem .7rem; border-bottom: 1px solid #8886; text-align: left;
 <p>Procedural scenes in absolute luminance, seen by a simulated eye: out = in * PSF, without a
 threshold, energy conserved. Luminances in cd/m<sup>2</sup>, angles in degrees, energies in
 cd/m<sup>2</sup> sr summed over the three colours.</p>
+<p>Of these, in + from_surround = out + off_picture + blocked: the light of the scene and what comes
+in from beyond the border is seen, leaves the picture or ends at the lids. Of in, glare takes spread
+from the pixels that it comes from, to other ones or off the picture.</p>
 )";
 
 std::string escaped(const std::string& text) {
@@ -87,7 +90,7 @@ std::string value_of(const IndexPanel& panel, const std::string& key) {
 }
 
 // What all panels share in a sentence, what differs in a table.
-std::string parameters_html(const std::vector<IndexPanel>& panels) {
+std::string parameters_html(const std::string& what, const std::vector<IndexPanel>& panels) {
     std::string shared;
     std::vector<std::string> columns;
     for (const std::string& key : keys_of(panels)) {
@@ -101,9 +104,9 @@ std::string parameters_html(const std::vector<IndexPanel>& panels) {
             columns.push_back(key);
         }
     }
-    std::string html = "<details>\n<summary>Parameters of every panel</summary>\n";
-    if (!shared.empty()) html += "<p>All panels: " + escaped(shared) + ".</p>\n";
-    html += "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">panel</th>";
+    std::string html = "<details>\n<summary>Parameters of every " + what + "</summary>\n";
+    if (!shared.empty()) html += "<p>Of all: " + escaped(shared) + ".</p>\n";
+    html += "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">" + what + "</th>";
     for (const std::string& key : columns) {
         html += "<th scope=\"col\">" + escaped(key) + "</th>";
     }
@@ -125,15 +128,17 @@ std::string parameters_html(const std::vector<IndexPanel>& panels) {
 }
 
 std::string sequence_html(const IndexCase& one) {
-    if (one.frames == 0) return "";
-    std::string html = "<p>" + escaped(one.frames_text) +
-                       fmt::format(" {} frames, from <a href=\"{}\">{}</a> on.</p>\n", one.frames,
-                                   escaped(one.first_frame), escaped(one.first_frame));
-    if (one.video.empty()) return html;
-    return html + fmt::format(
-                      "<video src=\"{}\" controls loop muted playsinline "
-                      "preload=\"metadata\"></video>\n",
-                      escaped(one.video));
+    if (one.frame_rows.empty()) return "";
+    std::string html =
+        "<p>" + escaped(one.frames_text) +
+        fmt::format(" {} frames, from <a href=\"{}\">{}</a> on.</p>\n", one.frame_rows.size(),
+                    escaped(one.first_frame), escaped(one.first_frame));
+    if (!one.video.empty()) {
+        html += fmt::format(
+            "<video src=\"{}\" controls loop muted playsinline preload=\"metadata\"></video>\n",
+            escaped(one.video));
+    }
+    return html + parameters_html("frame", one.frame_rows);
 }
 
 }  // namespace
@@ -150,7 +155,7 @@ std::string gallery_index(const std::vector<IndexCase>& cases) {
                             escaped(one.title), escaped(one.text));
         html += fmt::format("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}: contact sheet\"></a>\n",
                             escaped(one.sheet), escaped(one.title));
-        html += parameters_html(one.panels) + sequence_html(one) + "</section>\n";
+        html += parameters_html("panel", one.panels) + sequence_html(one) + "</section>\n";
     }
     return html + "</body>\n</html>\n";
 }

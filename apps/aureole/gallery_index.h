@@ -20,7 +20,7 @@ struct IndexCase {
     std::string sheet;  // file name
     std::vector<IndexPanel> panels;
     std::string frames_text;  // what the sequence shows; empty without one
-    int frames = 0;
+    std::vector<IndexPanel> frame_rows;
     std::string first_frame;  // file name
     std::string video;        // file name; empty without one
 };

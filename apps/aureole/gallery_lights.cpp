@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kBlinking = 0.6;  // how far the lids of a panel are closed
 
-// A dozen sources of about the same illuminance, somewhere in the picture; each panel the same
-// places.
+// Sources of about the same illuminance, somewhere in the picture; each panel the same places.
 std::vector<scene::PointLight> scattered_points(double illuminance_lx, double field_deg,
                                                 double shift_deg = 0) {
     constexpr int kPoints = 14;

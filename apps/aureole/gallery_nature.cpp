@@ -6,6 +6,10 @@
 namespace aureole::app {
 namespace {
 
+// The lamp nearest to a flame: glowing soot is a black body at about 1900 K, tungsten one at 2856
+// K.
+constexpr color::Illuminant kFlame = color::Illuminant::kTungsten;
+
 // A scene as a panel; exposed and adapted to what the scene says of itself. `make`: View -> Scene.
 template <class Make>
 Panel scene_panel(const std::string& label, const PanelSize& size, double fov_deg,
@@ -38,6 +42,7 @@ Panel candle_panel(const std::string& label, const PanelSize& size, double time_
     candle.time_s = time_s;
     Panel panel = scene_panel(
         label, size, 6, [candle](const View& view) { return scene::make_candle(view, candle); });
+    panel.spectrum = kFlame;
     panel.scene.update({{"time_s", candle.time_s},
                         {"distance_m", candle.distance_m},
                         {"intensity_cd", candle.intensity_cd}});
@@ -93,6 +98,7 @@ Content candle_case(const PanelSize& size) {
     point.eye = candle.eye;
     point.white_cd_m2 = candle.white_cd_m2;
     point.preset = "vivid";
+    point.spectrum = kFlame;
     Content content;
     content.panels = {without_glare(candle, "candle, no glare"), candle,
                       with_preset(candle, "vivid", "candle, vivid"), point};
@@ -118,9 +124,11 @@ Content sunset_case(const PanelSize& size) {
     }
     content.panels.push_back(
         with_preset(sunset_panel(size, 0.8), "vivid", "sun at +0.80 deg, vivid"));
+    // Slower towards the end, where each step takes away more of what is left of the sun.
     constexpr int kFrames = 48;
     for (int i = 0; i < kFrames; ++i) {
-        content.frames.push_back(sunset_panel(size, 4 - 4.4 * i / (kFrames - 1)));
+        const double to_go = 1 - i / (kFrames - 1.0);
+        content.frames.push_back(sunset_panel(size, -0.3 + 4.3 * to_go * to_go * to_go));
     }
     content.frames_per_second = 12;
     return content;

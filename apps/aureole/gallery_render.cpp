@@ -31,6 +31,7 @@ nlohmann::ordered_json parameters_of(const Panel& panel, const eye::Eye& eye,
     json.update(panel.scene);
     if (!panel.glare) return json;
     json.update({{"preset", panel.preset},
+                 {"source_spectrum", std::string(color::name_of(panel.spectrum))},
                  {"pupil_mm", eye.pupil_diameter_mm},
                  {"age_years", eye.age_years},
                  {"corona_contrast", eye.corona_contrast},
@@ -48,21 +49,29 @@ nlohmann::ordered_json parameters_of(const Panel& panel, const eye::Eye& eye,
 
 }  // namespace
 
-glare::Glare& PanelRenderer::glare_for(const eye::Eye& eye, const View& view) {
+PanelRenderer::Prepared& PanelRenderer::prepared_for(const eye::Eye& eye, const Panel& panel) {
+    const View& view = panel.view;
     const auto found = std::find_if(prepared_.begin(), prepared_.end(), [&](const Prepared& one) {
-        return one.eye == eye && one.view == view;
+        return one.eye == eye && one.view == view && one.spectrum == panel.spectrum;
     });
     if (found != prepared_.end()) {
         prepared_.splice(prepared_.begin(), prepared_, found);
-        return prepared_.front().glare;
+        return prepared_.front();
     }
     if (prepared_.size() == kKeptEyes) prepared_.pop_back();
-    const wave::Psf psf = eye::eye_psf(eye, wave::KernelGrid::full_reach(view));
+    eye::EyePsfOptions of_light;
+    of_light.spectral.illuminant = panel.spectrum;
+    const wave::Psf psf = eye::eye_psf(eye, wave::KernelGrid::full_reach(view), of_light);
+    std::array<double, 3> spread{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        spread[c] = 1 - double{psf.kernel.at(psf.kernel.width() / 2, psf.kernel.height() / 2,
+                                             static_cast<int>(c))};
+    }
     ++psfs_computed_;
     glare::GlareOptions options;
     options.surround = glare::Surround::kSame;  // scenes go on beyond the border
-    prepared_.push_front({eye, view, glare::Glare(view, 3, psf, options)});
-    return prepared_.front().glare;
+    prepared_.push_front({eye, view, panel.spectrum, spread, glare::Glare(view, 3, psf, options)});
+    return prepared_.front();
 }
 
 RenderedPanel PanelRenderer::render(const Panel& panel) {
@@ -76,18 +85,19 @@ RenderedPanel PanelRenderer::render(const Panel& panel) {
     energy.in = energy_of(in, panel.view, solid_angles);
     Image out = in;
     if (panel.glare) {
-        glare::Glare& glare = glare_for(eye, panel.view);
-        glare.apply(in, out);
-        const glare::Energy spread = glare.energy(in, out);
-        energy.from_surround = spread.from_surround;
-        energy.off_picture = panel.light_share * spread.off_picture;
+        Prepared& prepared = prepared_for(eye, panel);
+        prepared.glare.apply(in, out);
+        const glare::Energy sums = prepared.glare.energy(in, out);
+        energy.from_surround = sums.from_surround;
+        energy.off_picture = panel.light_share * sums.off_picture;
+        for (int c = 0; c < 3; ++c) {
+            energy.spread += panel.light_share * prepared.spread[static_cast<std::size_t>(c)] *
+                             energy_of(in.view().channel_range(c, 1), panel.view, solid_angles);
+        }
         const auto share = static_cast<float>(panel.light_share);
         const std::size_t values = 3 * out.pixels();
         std::for_each_n(out.plane(0), values, [&](float& value) { value *= share; });
         energy.blocked = (1 - panel.light_share) * (energy.in + energy.from_surround);
-        Image added = difference(out, in);
-        std::for_each_n(added.plane(0), values, [](float& v) { v = std::max(v, 0.0F); });
-        energy.added = energy_of(added, panel.view, solid_angles);
     }
     energy.out = energy_of(out, panel.view, solid_angles);
     rendered.display = display.encode(out, -std::log2(panel.white_cd_m2));

@@ -1,6 +1,7 @@
 // From panels to pictures.
 #pragma once
 
+#include <array>
 #include <list>
 #include <nlohmann/json.hpp>
 
@@ -17,7 +18,8 @@ struct PanelEnergy {
     double out = 0;
     double off_picture = 0;
     double blocked = 0;  // by lids
-    double added = 0;    // what glare added where it added: the sum of max(0, out - in)
+    double spread = 0;   // of in: what glare takes from the pixels it comes from, to other ones or
+                         // off the picture. A sum over lights, whatever they are seen against
 };
 
 struct RenderedPanel {
@@ -37,9 +39,11 @@ class PanelRenderer {
     struct Prepared {
         eye::Eye eye;
         View view;
+        color::Illuminant spectrum;
+        std::array<double, 3> spread;  // 1 - the share that stays in the light's own pixel
         glare::Glare glare;
     };
-    glare::Glare& glare_for(const eye::Eye& eye, const View& view);
+    Prepared& prepared_for(const eye::Eye& eye, const Panel& panel);
 
     std::list<Prepared> prepared_;  // the latest first
     int psfs_computed_ = 0;

@@ -16,6 +16,8 @@ constexpr double kTextHeight = 0.11;  // below a panel
 constexpr double kTitleHeight = 0.09;
 
 constexpr DrawingColor kGround = {0.12, 0.12, 0.12, 1};
+constexpr DrawingColor kFrame = {0.4, 0.4, 0.4, 1};  // a pixel around each panel: some are as grey
+                                                     // as the sheet
 constexpr DrawingColor kInk = {0.92, 0.92, 0.92, 1};
 constexpr DrawingColor kFaintInk = {0.65, 0.65, 0.65, 1};
 
@@ -56,6 +58,14 @@ DrawingText text(double x_px, double y_px, const std::string& words, double size
             DrawingText::Anchor::kStart};
 }
 
+DrawingArea frame_around(double left_px, double top_px, const Layout& layout) {
+    const double left = (left_px - 1) * kMmPerPixel;
+    const double top = (top_px - 1) * kMmPerPixel;
+    const double right = left + (layout.panel_width + 2) * kMmPerPixel;
+    const double bottom = top + (layout.panel_height + 2) * kMmPerPixel;
+    return {{{left, top}, {right, top}, {right, bottom}, {left, bottom}}, kFrame, kFrame, 0};
+}
+
 }  // namespace
 
 int contact_sheet_width_px(const std::vector<SheetPanel>& panels, int columns) {
@@ -76,6 +86,7 @@ Drawing contact_sheet(const std::string& title, const std::vector<SheetPanel>& p
         const SheetPanel& panel = panels[static_cast<std::size_t>(i)];
         const double left = layout.left(i);
         const double bottom = layout.top(i) + layout.panel_height;
+        drawing.items.emplace_back(frame_around(left, layout.top(i), layout));
         drawing.items.emplace_back(DrawingImage{{left * kMmPerPixel, layout.top(i) * kMmPerPixel},
                                                 width * kMmPerPixel,
                                                 layout.panel_height * kMmPerPixel,

@@ -10,8 +10,8 @@
 #include "aureole/base/crc32.h"
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
+#include "aureole/fourier/byte_spectrum.h"
 #include "aureole/fourier/sizes.h"
-#include "aureole/fourier/symmetric_fft.h"
 #include "eye/flipbook_format.h"
 #include "eye/flipbook_selection.h"
 #include "eye/kernel_checks.h"
@@ -64,7 +64,11 @@ FlipbookPreamble checked_preamble(std::span<const std::byte> bytes) {
             "newer one",
             preamble.version, kFlipbookVersion));
     }
-    if (preamble.version < kFlipbookVersion) throw InvalidArgument("is damaged: it has no version");
+    if (preamble.version < kFlipbookVersion) {
+        throw InvalidArgument(fmt::format(
+            "has version {} of the format, and this program reads version {}: bake it again",
+            preamble.version, kFlipbookVersion));
+    }
     if (bytes.size() != preamble.file_bytes) {
         throw InvalidArgument(fmt::format(
             "has {} bytes and says that it should have {}: it is {}", bytes.size(),
@@ -90,12 +94,6 @@ std::string frame_name(const FlipbookRange& range, std::size_t frame) {
     return fmt::format("frame {} of the {}", frame - first, term);
 }
 
-bool all_finite(std::span<const std::uint16_t> halves) {
-    constexpr unsigned kExponent = 0x7c00;
-    return std::all_of(halves.begin(), halves.end(),
-                       [](unsigned half) { return (half & kExponent) != kExponent; });
-}
-
 bool is_finite(const FlipbookEntry& entry) {
     const auto finite = [](double value) { return std::isfinite(value); };
     return std::all_of(entry.scale.begin(), entry.scale.end(), finite) && finite(entry.weight) &&
@@ -116,19 +114,11 @@ void check_flipbook_grid(const wave::KernelGrid& grid) {
                           "without prime factors above 7");
 }
 
-std::size_t spectrum_size(const wave::KernelGrid& grid) {
-    return fourier::symmetric_spectrum_size(grid.width + 1);
-}
-
-std::size_t frame_bytes(const wave::KernelGrid& grid) {
-    return 3 * spectrum_size(grid) * sizeof(std::uint16_t);
-}
-
 UnsealedBook open_book(const FlipbookText& text) {
     UnsealedBook book;
     const std::size_t frames = FlipbookAxes(text.range).frames;
     book.head_bytes = head_size(write_flipbook_text(text).size(), frames);
-    book.bytes.resize(book.head_bytes + frames * frame_bytes(text.grid));
+    book.bytes.resize(book.head_bytes + frames * SpectrumShape(text.grid).frame_bytes());
     return book;
 }
 
@@ -136,7 +126,7 @@ std::vector<std::byte> seal_book(UnsealedBook book, const FlipbookText& text,
                                  std::vector<FlipbookEntry> entries) {
     const std::span<std::byte> bytes(book.bytes);
     const std::string words = write_flipbook_text(text);
-    const std::size_t size = frame_bytes(text.grid);
+    const std::size_t size = SpectrumShape(text.grid).frame_bytes();
     for (std::size_t i = 0; i < entries.size(); ++i) {
         entries[i].crc = crc32(bytes.subspan(book.head_bytes + i * size, size));
         write(bytes, entries_at(words.size()) + i * sizeof(FlipbookEntry), entries[i]);
@@ -169,7 +159,8 @@ Flipbook::Flipbook(std::span<const std::byte> bytes) : bytes_(bytes) {
     range_ = text.range;
     identity_ = std::move(text.identity);
     const std::size_t frames = FlipbookAxes(range_).frames;
-    const std::size_t size = frame_bytes(grid_);
+    const SpectrumShape shape(grid_);
+    const std::size_t size = shape.frame_bytes();
     if (preamble.frames != frames || bytes.size() != preamble.head_bytes + frames * size) {
         throw InvalidArgument(fmt::format("is damaged: it should have {} frames", frames));
     }
@@ -180,17 +171,17 @@ Flipbook::Flipbook(std::span<const std::byte> bytes) : bytes_(bytes) {
         const auto entry =
             read<FlipbookEntry>(bytes, entries_at(preamble.text_bytes) + i * sizeof(FlipbookEntry));
         const auto stored = bytes.subspan(preamble.head_bytes + i * size, size);
-        const auto* halves = reinterpret_cast<const std::uint16_t*>(stored.data());
-        good[i] = crc32(stored) == entry.crc && is_finite(entry) && all_finite({halves, size / 2})
-                      ? 1
-                      : 0;
+        bool is_good = crc32(stored) == entry.crc && is_finite(entry);
         Frame& frame = frames_[i];
         frame.weight = entry.weight;
         frame.energy = entry.energy;
         frame.scale = entry.scale;
         for (std::size_t c = 0; c < 3; ++c) {
-            frame.spectra[c] = {halves + c * spectrum_size(grid_), spectrum_size(grid_)};
+            frame.spectra[c] = stored.data() + c * shape.bytes();
+            is_good =
+                is_good && fourier::scales_are_finite(frame.spectra[c], shape.rows, shape.columns);
         }
+        good[i] = is_good ? 1 : 0;
     });
     const auto bad = std::find(good.begin(), good.end(), std::uint8_t{0});
     if (bad != good.end()) {

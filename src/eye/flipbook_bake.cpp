@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "aureole/base/error.h"
-#include "aureole/fourier/half_spectrum.h"
+#include "aureole/fourier/byte_spectrum.h"
 #include "aureole/fourier/symmetric_fft.h"
 #include "eye/flipbook_format.h"
 #include "eye/flipbook_terms.h"
@@ -45,8 +45,8 @@ std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& ras
     const std::vector<FlipbookFrame> frames = frames_of(range);
     const Image envelope = flipbook_envelope(eye, range, raster);
     fourier::SymmetricFft fft(raster.width + 1);
-    const std::size_t count = spectrum_size(raster);
-    std::vector<float> spectrum(count);
+    const SpectrumShape shape(raster);
+    std::vector<float> spectrum(shape.numbers());
     Image stored(raster.width, raster.height, 1);
     UnsealedBook book = open_book(text);
     std::vector<FlipbookEntry> entries(frames.size());
@@ -60,15 +60,16 @@ std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& ras
         FlipbookEntry& entry = entries[i];
         entry.weight = term.weight;
         if (term.weight == 0) continue;
-        auto* halves = reinterpret_cast<std::uint16_t*>(book.bytes.data() + book.head_bytes +
-                                                        i * frame_bytes(raster));
         for (std::size_t c = 0; c < 3; ++c) {
+            std::byte* bytes =
+                book.bytes.data() + book.head_bytes + i * shape.frame_bytes() + c * shape.bytes();
             fft.forward(term.relative.view().channel_range(static_cast<int>(c), 1),
                         spectrum.data());
-            entry.scale[c] = fourier::encode_spectrum(spectrum, halves + c * count);
+            entry.scale[c] = fourier::encode_spectrum(spectrum, shape.columns, bytes);
             // The energy of what is stored, not of what was meant, so that none is lost.
             std::fill(spectrum.begin(), spectrum.end(), 0.0F);
-            fourier::add_spectrum({halves + c * count, count}, entry.scale[c], spectrum.data());
+            fourier::add_spectrum(bytes, shape.rows, shape.columns, 0, shape.rows, entry.scale[c],
+                                  spectrum.data());
             fft.inverse(spectrum.data(), nullptr, stored, {});
             entry.energy[c] = energy_of(stored, envelope);
         }

@@ -119,9 +119,12 @@ TEST(FlipbookDamage, ForeignNewerAndSwappedBooksAreToldApart) {
     std::vector<std::byte> picture(5000, std::byte{0x76});
     EXPECT_THAT(refusal(picture), HasSubstr("is no flipbook"));
     FlipbookPreamble value = preamble();
-    value.version = 2;
+    value.version = 3;
     EXPECT_THAT(refusal(resealed(value)),
-                testing::AllOf(HasSubstr("version 2"), HasSubstr("version 1"), HasSubstr("newer")));
+                testing::AllOf(HasSubstr("version 3"), HasSubstr("version 2"), HasSubstr("newer")));
+    value.version = 1;
+    EXPECT_THAT(refusal(resealed(value)),
+                testing::AllOf(HasSubstr("version 1"), HasSubstr("version 2"), HasSubstr("again")));
     value = preamble();
     value.byte_order = 0x04030201;
     EXPECT_THAT(refusal(resealed(value)), HasSubstr("byte order"));

@@ -16,8 +16,6 @@
 namespace aureole::eye {
 namespace {
 
-constexpr double kFromDeg = 0.3;
-constexpr double kToDeg = 5;
 constexpr double kRingDeg = 0.1;
 
 // Sums of squares of differences and of what should be.
@@ -38,6 +36,8 @@ class Measurement {
         if (options.aperture != book.aperture()) {
             throw InvalidArgument("the flipbook was baked with another aperture raster");
         }
+        errors_.to_deg =
+            std::min(errors_.to_deg, flipbook_whole_to_deg(book.grid(), book.aperture()));
         psf_.kernel = played_;
         const View view = book.grid().view();
         for (int y = 0; y < angle_deg_.height(); ++y) {
@@ -48,16 +48,23 @@ class Measurement {
         }
     }
 
+    bool has_annulus() const { return errors_.to_deg > errors_.from_deg; }
+
     void add(const Eye& now) {
         add_term(Component::kCorona, now, texture_);
         add_term(Component::kHalo, now, halo_);
         add_term(Component::kStreaks, now, streaks_);
         add_psf(now);
-        ++poses_;
+        ++errors_.poses;
     }
 
     FlipbookErrors errors() const {
-        return {texture_.root(), halo_.root(), streaks_.root(), all_.root(), worst_ring_, poses_};
+        FlipbookErrors errors = errors_;
+        errors.texture = texture_.root();
+        errors.halo = halo_.root();
+        errors.streaks = streaks_.root();
+        errors.psf = all_.root();
+        return errors;
     }
 
   private:
@@ -66,7 +73,7 @@ class Measurement {
         for (int y = 0; y < angle_deg_.height(); ++y) {
             for (int x = 0; x < angle_deg_.width(); ++x) {
                 const auto angle = static_cast<double>(angle_deg_.at(x, y));
-                if (angle >= kFromDeg && angle < kToDeg) visit(x, y, angle);
+                if (angle >= errors_.from_deg && angle < errors_.to_deg) visit(x, y, angle);
             }
         }
     }
@@ -94,9 +101,9 @@ class Measurement {
             int count = 0;
         };
         std::vector<Ring> rings(
-            static_cast<std::size_t>(std::lround((kToDeg - kFromDeg) / kRingDeg)) + 1);
+            static_cast<std::size_t>((errors_.to_deg - errors_.from_deg) / kRingDeg) + 1);
         over_annulus([&](int x, int y, double angle) {
-            Ring& ring = rings[static_cast<std::size_t>((angle - kFromDeg) / kRingDeg)];
+            Ring& ring = rings[static_cast<std::size_t>((angle - errors_.from_deg) / kRingDeg)];
             const auto e = static_cast<double>(player_.envelope().at(x, y));
             for (int c = 0; c < 3; ++c) {
                 const auto wanted = static_cast<double>(direct.kernel.at(x, y, c));
@@ -110,8 +117,9 @@ class Measurement {
         });
         for (const Ring& ring : rings) {
             if (ring.count == 0) continue;
-            worst_ring_ = std::max(
-                worst_ring_, std::sqrt(ring.difference / ring.count) / (ring.sum / ring.count));
+            errors_.worst_ring =
+                std::max(errors_.worst_ring,
+                         std::sqrt(ring.difference / ring.count) / (ring.sum / ring.count));
         }
     }
 
@@ -122,8 +130,7 @@ class Measurement {
     Image played_;
     wave::Psf psf_;
     Squares texture_, halo_, streaks_, all_;
-    double worst_ring_ = 0;
-    int poses_ = 0;
+    FlipbookErrors errors_;
 };
 
 // Whether a pupil is a node of an axis.
@@ -132,10 +139,32 @@ bool is_node(const FlipbookAxis& axis, double pupil_mm) {
     return std::abs(axis.at(share > 0.5 ? low + 1 : low) - pupil_mm) < 1e-9;
 }
 
+// The poses of the texture's frames that are frames of the other terms too.
+std::vector<Eye> poses_of_frames(const FlipbookRange& range, const Eye& eye, FlipbookLids lids) {
+    const FlipbookAxes axes(range);
+    std::vector<Eye> all;
+    for (const FlipbookFrame& frame : frames_of(range)) {
+        if (frame.component != Component::kCorona) break;
+        if ((frame.eyelid > 0) != (lids == FlipbookLids::kCovering)) continue;
+        if (!is_node(axes.streak_pupils, frame.pupil_mm)) continue;
+        Eye now = eye_at(eye, frame);
+        const bool halo_stored = axes.halo_pupils.nodes > 0
+                                     ? is_node(axes.halo_pupils, frame.pupil_mm)
+                                     : frame.pupil_mm < kHaloFromMm;
+        if (!halo_stored && halo_weight(now) > 0) continue;
+        if (lids == FlipbookLids::kOpen) {
+            now.pose.lash_closure =
+                axes.closures.at(static_cast<int>(all.size()) % axes.closures.nodes);
+        }
+        all.push_back(now);
+    }
+    return all;
+}
+
 FlipbookErrors measure(const Flipbook& book, const Eye& eye, const EyePsfOptions& options,
                        const std::vector<Eye>& poses, Progress* progress) {
     Measurement measurement(book, eye, options);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (std::size_t i = 0; measurement.has_annulus() && i < poses.size(); ++i) {
         if (progress != nullptr) {
             progress->report("measuring",
                              static_cast<double>(i) / static_cast<double>(poses.size()));
@@ -150,46 +179,34 @@ FlipbookErrors measure(const Flipbook& book, const Eye& eye, const EyePsfOptions
 }  // namespace
 
 FlipbookErrors errors_at_frames(const Flipbook& book, const Eye& eye, const EyePsfOptions& options,
-                                int poses, Progress* progress) {
-    const FlipbookAxes axes(book.range());
-    std::vector<Eye> all;
-    for (const FlipbookFrame& frame : frames_of(book.range())) {
-        if (frame.component != Component::kCorona) break;
-        Eye now = eye_at(eye, frame);
-        const bool halo_stored = axes.halo_pupils.nodes > 0
-                                     ? is_node(axes.halo_pupils, frame.pupil_mm)
-                                     : frame.pupil_mm < kHaloFromMm;
-        if (!is_node(axes.streak_pupils, frame.pupil_mm)) continue;
-        if (!halo_stored && halo_weight(now) > 0) continue;
-        now.pose.lash_closure =
-            axes.closures.at(static_cast<int>(all.size()) % axes.closures.nodes);
-        all.push_back(now);
-    }
+                                FlipbookLids lids, int poses, Progress* progress) {
+    const std::vector<Eye> all = poses_of_frames(book.range(), eye, lids);
     // In steps that share no factor with their number, so that pupils and states mix.
-    std::size_t step = all.size() * 3 / 8;
-    while (step > 1 && std::gcd(step, all.size()) > 1) --step;
+    const std::size_t count = all.size();
+    std::size_t step = std::max<std::size_t>(count * 3 / 8, 1);
+    while (std::gcd(step, count) > 1) ++step;
     std::vector<Eye> chosen;
-    for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(poses), all.size()); ++i) {
-        chosen.push_back(all[i * std::max<std::size_t>(step, 1) % all.size()]);
+    for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(poses), count); ++i) {
+        chosen.push_back(all[(count / 2 + i * step) % count]);
     }
     return measure(book, eye, options, chosen, progress);
 }
 
 FlipbookErrors errors_between_frames(const Flipbook& book, const Eye& eye,
-                                     const EyePsfOptions& options, int poses, Progress* progress) {
+                                     const EyePsfOptions& options, FlipbookLids lids, int poses,
+                                     Progress* progress) {
     constexpr double kMostTurnDeg = 1;
-    constexpr double kMostClosure = 0.5;
     const FlipbookRange& range = book.range();
-    Random random(1, 0);
+    const bool covering = lids == FlipbookLids::kCovering;
+    Random random(1, covering ? 1 : 0);
     std::vector<Eye> chosen;
-    for (int i = 0; i < poses; ++i) {
+    for (int i = 0; i < poses && !(covering && range.lid_states == 1); ++i) {
         Eye now = eye;
         now.pupil_diameter_mm = random.uniform(range.pupil_from_mm, range.pupil_to_mm);
         now.pose.lens_scale = 1 + random.uniform(-range.lens_scale_span, range.lens_scale_span);
         now.pose.vitreous_yaw_deg = random.uniform(-kMostTurnDeg, kMostTurnDeg);
         now.pose.vitreous_pitch_deg = random.uniform(-kMostTurnDeg, kMostTurnDeg);
-        now.pose.lash_closure = random.uniform(0, kMostClosure);
-        now.eyelid = i % 2 == 0 ? 0 : now.pose.lash_closure;
+        (covering ? now.eyelid : now.pose.lash_closure) = random.uniform(0, range.largest_closure);
         chosen.push_back(now);
     }
     return measure(book, eye, options, chosen, progress);

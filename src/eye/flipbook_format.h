@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "aureole/eye/flipbook.h"
+#include "aureole/fourier/byte_spectrum.h"
 
 namespace aureole::eye {
 
 inline constexpr std::array<char, 8> kFlipbookMagic = {'A', 'U', 'R', 'B', 'O', 'O', 'K', '\n'};
 inline constexpr std::uint32_t kFlipbookByteOrder = 0x01020304;
-inline constexpr std::uint32_t kFlipbookVersion = 1;
+inline constexpr std::uint32_t kFlipbookVersion = 2;
 
 struct FlipbookPreamble {
     std::array<char, 8> magic = kFlipbookMagic;
@@ -30,7 +31,7 @@ struct FlipbookPreamble {
 static_assert(sizeof(FlipbookPreamble) == 40);
 
 struct FlipbookEntry {
-    std::uint32_t crc = 0;  // of the frame's halves
+    std::uint32_t crc = 0;  // of the frame's bytes
     std::array<float, 3> scale = {};
     double weight = 0;
     std::array<double, 3> energy = {};
@@ -51,9 +52,19 @@ FlipbookText read_flipbook_text(std::string_view text);
 // Throws InvalidArgument unless the grid is a raster of books.
 void check_flipbook_grid(const wave::KernelGrid& grid);
 
-// Halves of one colour, and bytes of one frame, of a raster.
-std::size_t spectrum_size(const wave::KernelGrid& grid);
-std::size_t frame_bytes(const wave::KernelGrid& grid);
+// What a raster's spectra take.
+struct SpectrumShape {
+    explicit SpectrumShape(const wave::KernelGrid& grid)
+        : rows(grid.width + 1), columns(rows / 2 + 1) {}
+    std::size_t numbers() const {
+        return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+    }
+    std::size_t bytes() const { return fourier::byte_spectrum_size(rows, columns); }
+    std::size_t frame_bytes() const { return 3 * bytes(); }
+
+    int rows;
+    int columns;
+};
 
 // A book without its frames: they are to be written from head_bytes on, then it is to be sealed.
 struct UnsealedBook {

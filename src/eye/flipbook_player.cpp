@@ -12,9 +12,9 @@
 #include "aureole/base/error.h"
 #include "aureole/base/parallel.h"
 #include "aureole/eye/scatter.h"
-#include "aureole/fourier/half_spectrum.h"
 #include "aureole/fourier/symmetric_fft.h"
 #include "eye/diffracted_share.h"
+#include "eye/flipbook_format.h"
 #include "eye/flipbook_selection.h"
 #include "eye/flipbook_terms.h"
 #include "eye/kernel_checks.h"
@@ -25,8 +25,8 @@ namespace {
 
 using Parts = FlipbookParts;
 
-// Spectra are summed in pieces of this many numbers.
-constexpr std::size_t kPiece = 8192;
+// Spectra are summed in pieces of this many rows.
+constexpr int kPieceRows = 32;
 
 void check_use(const Flipbook& book, const Eye& eye, const SpectralSampling& sampling,
                const wave::KernelGrid& grid) {
@@ -106,25 +106,27 @@ FlipbookPlayer::Impl::Impl(const Flipbook& flipbook, const Eye& eye,
         });
         scatter.push_back(std::move(quadrant));
     }
-    for (Buffer& spectrum : spectra) spectrum = Buffer(book.frames()[0].spectra[0].size());
+    for (Buffer& spectrum : spectra) spectrum = Buffer(SpectrumShape(book.grid()).numbers());
     for (int i = 0; i < max_workers(); ++i) {
         rows.emplace_back(static_cast<std::size_t>(grid.width / 2) + 1);
     }
 }
 
 void FlipbookPlayer::Impl::play() noexcept {
-    const std::size_t count = spectra[0].size();
-    const std::size_t pieces = (count + kPiece - 1) / kPiece;
+    const SpectrumShape shape(book.grid());
+    const auto columns = static_cast<std::size_t>(shape.columns);
+    const auto pieces = static_cast<std::size_t>((shape.rows + kPieceRows - 1) / kPieceRows);
     parallel_for(3 * pieces, [&](std::size_t item, int) {
         const std::size_t c = item / pieces;
-        const std::size_t from = item % pieces * kPiece;
-        const std::size_t length = std::min(kPiece, count - from);
-        float* sum = spectra[c].data() + from;
-        std::fill_n(sum, length, 0.0F);
+        const int first_row = static_cast<int>(item % pieces) * kPieceRows;
+        const int end_row = std::min(first_row + kPieceRows, shape.rows);
+        float* sum = spectra[c].data() + static_cast<std::size_t>(first_row) * columns;
+        std::fill_n(sum, static_cast<std::size_t>(end_row - first_row) * columns, 0.0F);
         for (std::size_t i = 0; i < term_count; ++i) {
             const Flipbook::Frame& frame = book.frames()[terms[i].frame];
             const auto factor = static_cast<float>(terms[i].factors[c]) * frame.scale[c];
-            fourier::add_spectrum(frame.spectra[c].subspan(from, length), factor, sum);
+            fourier::add_spectrum(frame.spectra[c], shape.rows, shape.columns, first_row, end_row,
+                                  factor, sum);
         }
     });
     const ImageView out = relative;
@@ -209,12 +211,15 @@ void FlipbookPlayer::write(const Eye& now, wave::Psf& psf) noexcept {
     const auto& frames = own.book.frames();
     const Parts halo = halo_parts(own.axes, now);
     const Parts streaks = streak_parts(own.axes, now);
-    double streak_share = 0;
-    for (const auto& [frame, factor] : streaks) streak_share += factor * frames[frame].weight;
-    streak_share *= now.streaks;
-    double halo_share = halo.count > 0 ? visible_halo_weight(now) : 0;
-    const double limit = diffracted_limit(halo_share + streak_share);
-    halo_share *= limit;
+    const auto weight_of = [&](const Parts& parts) {
+        double weight = 0;
+        for (const auto& [frame, factor] : parts) weight += factor * frames[frame].weight;
+        return weight;
+    };
+    const double streak_share = now.streaks * weight_of(streaks);
+    const double of_halo = visible_halo_weight(now);
+    const double limit = diffracted_limit(of_halo * weight_of(halo) + streak_share);
+    const double halo_scale = of_halo * limit;
     const double streak_scale = now.streaks * limit;
 
     std::array<double, 3> rest = {1, 1, 1};  // 1 - c
@@ -223,7 +228,7 @@ void FlipbookPlayer::write(const Eye& now, wave::Psf& psf) noexcept {
         for (std::size_t c = 0; c < 3; ++c) rest[c] -= factor * frames[frame].energy[c];
         own.add(frame, {factor, factor, factor});
     };
-    for (const auto& [frame, factor] : halo) add(frame, factor * halo_share);
+    for (const auto& [frame, factor] : halo) add(frame, factor * halo_scale);
     for (const auto& [frame, factor] : streaks) add(frame, factor * streak_scale);
     // Rounding leaves the texture a little energy, which must not add to the bloom's.
     const std::size_t texture = texture_frame(own.axes, now);

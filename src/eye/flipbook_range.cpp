@@ -33,6 +33,7 @@ void check(const FlipbookRange& range) {
     require_count("vitreous phases", range.vitreous_phases);
     require(range.vitreous_step_deg > 0 && range.vitreous_step_deg <= 10, "vitreous step",
             range.vitreous_step_deg, "must be above 0, and at most 10 deg");
+    require_count("covered phases", range.covered_phases);
     require_count("halo pupils", range.halo_pupils);
     require_count("streak pupils", range.streak_pupils);
     require_count("lid states", range.lid_states);
@@ -55,9 +56,18 @@ std::vector<FlipbookFrame> frames_of(const FlipbookRange& range) {
             frame.pose.vitreous_yaw_deg = phase * range.vitreous_step_deg;
             frames.push_back(frame);
         }
+        for (int lid = 1; lid < axes.closures.nodes; ++lid) {
+            frame.eyelid = axes.closures.at(lid);
+            for (int phase = 0; phase < range.covered_phases; ++phase) {
+                frame.pose.vitreous_yaw_deg = phase * range.vitreous_step_deg;
+                frames.push_back(frame);
+            }
+        }
     }
     for (int p = 0; p < axes.halo_pupils.nodes; ++p) {
-        frames.push_back({Component::kHalo, axes.halo_pupils.at(p), 0, {}});
+        for (int lid = 0; lid < axes.closures.nodes; ++lid) {
+            frames.push_back({Component::kHalo, axes.halo_pupils.at(p), axes.closures.at(lid), {}});
+        }
     }
     for (int p = 0; p < axes.streak_pupils.nodes; ++p) {
         FlipbookFrame frame{Component::kStreaks, axes.streak_pupils.at(p), 0, {}};
@@ -91,13 +101,14 @@ FlipbookAxes::FlipbookAxes(const FlipbookRange& range)
       lens{range.lens_states, 1 - range.lens_scale_span, 1 + range.lens_scale_span},
       vitreous_phases(range.vitreous_phases),
       vitreous_step_deg(range.vitreous_step_deg),
+      covered_phases(range.covered_phases),
       halo_pupils{range.pupil_to_mm < kHaloFromMm ? 0 : range.halo_pupils,
                   std::max(range.pupil_from_mm, kHaloFromMm), range.pupil_to_mm},
       streak_pupils{range.streak_pupils, range.pupil_from_mm, range.pupil_to_mm},
       closures{range.lid_states, 0, range.largest_closure} {
     if (lens.nodes == 1) lens.first = 1;
     first_halo = static_cast<std::size_t>(texture_pupils.nodes * states());
-    first_streaks = first_halo + static_cast<std::size_t>(halo_pupils.nodes);
+    first_streaks = first_halo + static_cast<std::size_t>(halo_pupils.nodes * closures.nodes);
     frames =
         first_streaks + static_cast<std::size_t>(streak_pupils.nodes * (2 * closures.nodes - 1));
 }
@@ -109,9 +120,19 @@ std::size_t texture_frame(const FlipbookAxes& axes, const Eye& eye) noexcept {
     const Pose& pose = eye.pose;
     const long long turned = steps(pose.vitreous_yaw_deg) + 2 * steps(pose.vitreous_pitch_deg) +
                              3 * steps(pose.vitreous_roll_deg);
-    const long long loop = axes.vitreous_phases;
-    const auto phase = static_cast<int>((turned % loop + loop) % loop);
-    const int state = phase == 0 ? axes.lens.nearest(pose.lens_scale) : axes.lens.nodes + phase - 1;
+    const auto phase_of = [](long long steps_in_all, int loop) {
+        return static_cast<int>((steps_in_all % loop + loop) % loop);
+    };
+    const int lens = axes.lens.nearest(pose.lens_scale);
+    const int lid = axes.closures.nearest(eye.eyelid);
+    int state = 0;
+    if (lid > 0) {
+        const int phase = phase_of(turned + lens - axes.lens.nodes / 2, axes.covered_phases);
+        state = axes.open_states() + (lid - 1) * axes.covered_phases + phase;
+    } else {
+        const int phase = phase_of(turned, axes.vitreous_phases);
+        state = phase == 0 ? lens : axes.lens.nodes + phase - 1;
+    }
     const int pupil = axes.texture_pupils.nearest(eye.pupil_diameter_mm);
     return static_cast<std::size_t>(pupil * axes.states() + state);
 }
@@ -119,10 +140,16 @@ std::size_t texture_frame(const FlipbookAxes& axes, const Eye& eye) noexcept {
 FlipbookParts halo_parts(const FlipbookAxes& axes, const Eye& eye) noexcept {
     FlipbookParts parts;
     if (axes.halo_pupils.nodes == 0) return parts;
-    const auto [pupil, share] = axes.halo_pupils.place(eye.pupil_diameter_mm);
-    const std::size_t frame = axes.first_halo + static_cast<std::size_t>(pupil);
-    parts.add(frame, 1 - share);
-    parts.add(frame + 1, share);
+    const auto [pupil, pupil_share] = axes.halo_pupils.place(eye.pupil_diameter_mm);
+    const auto [lid, lid_share] = axes.closures.place(eye.eyelid);
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            const int frame = (pupil + i) * axes.closures.nodes + lid + j;
+            parts.add(
+                axes.first_halo + static_cast<std::size_t>(frame),
+                (i == 0 ? 1 - pupil_share : pupil_share) * (j == 0 ? 1 - lid_share : lid_share));
+        }
+    }
     return parts;
 }
 

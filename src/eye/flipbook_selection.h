@@ -29,13 +29,15 @@ struct FlipbookAxis {
 struct FlipbookAxes {
     explicit FlipbookAxes(const FlipbookRange& range);
 
-    // Particle states of each texture pupil.
-    int states() const noexcept { return lens.nodes + vitreous_phases - 1; }
+    // Particle states of each texture pupil: with open lids, and all.
+    int open_states() const noexcept { return lens.nodes + vitreous_phases - 1; }
+    int states() const noexcept { return open_states() + (closures.nodes - 1) * covered_phases; }
 
     FlipbookAxis texture_pupils;
     FlipbookAxis lens;
     int vitreous_phases;
     double vitreous_step_deg;
+    int covered_phases;
     FlipbookAxis halo_pupils;  // perhaps without nodes
     FlipbookAxis streak_pupils;
     FlipbookAxis closures;

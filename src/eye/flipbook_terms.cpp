@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
 
-#include "aureole/base/parallel.h"
 #include "aureole/base/units.h"
 #include "aureole/wave/aperture.h"
-#include "eye/diffracted_share.h"
-#include "eye/kernel_checks.h"
+#include "eye/components.h"
 #include "eye/smoothstep.h"
 
 namespace aureole::eye {
@@ -19,55 +19,71 @@ constexpr double kFadeShare = 0.125;
 // Red still counts there; what longer wavelengths carry farther is a few thousandths.
 constexpr double kReachNm = 650;
 // Radius within which the envelope is flat.
-constexpr int kFlatPx = 4;
+constexpr int kFlatPx = 2;
 
-double reach_px(const wave::KernelGrid& raster, const wave::ApertureGrid& aperture) {
+bool patterns_fade(const wave::KernelGrid& raster, const wave::ApertureGrid& aperture) {
     const double sine = std::min(mm_from_nm(kReachNm) / (2 * aperture.spacing_mm()), 0.999);
     const double angle = std::asin(sine);
-    return raster.view().focal_length_px() *
-           (raster.projection == Projection::kPerspective ? std::tan(angle) : angle);
+    const double reach_px =
+        raster.view().focal_length_px() *
+        (raster.projection == Projection::kPerspective ? std::tan(angle) : angle);
+    const int half = raster.width / 2;
+    return reach_px > half;
 }
 
-// w_e: the share of the pupil's area that lashes block.
-double blocked_share(const Eye& eye, const wave::ApertureGrid& aperture) {
-    const wave::Mask pupil = draw_pupil(eye, aperture);
-    const wave::Mask lashes = draw_lashes(eye, aperture);
-    const auto samples = static_cast<std::size_t>(aperture.samples);
-    struct Sums {
-        double open = 0, blocked = 0;
-    };
-    std::vector<Sums> rows(samples);
-    parallel_for(samples, [&](std::size_t j, int) {
-        const float* open = pupil.values.data() + j * samples;
-        const float* lash = lashes.values.data() + j * samples;
-        for (std::size_t i = 0; i < samples; ++i) {
-            rows[j].open += static_cast<double>(open[i]);
-            rows[j].blocked += static_cast<double>(open[i] * lash[i]);
+// H, or w_e E with its weight, on the whole raster.
+FlipbookTerm diffracted(Component component, const Eye& eye, const wave::KernelGrid& raster,
+                        const EyePsfOptions& options) {
+    Components components(eye, raster, options, nullptr, nullptr);
+    FlipbookTerm term;
+    std::optional<Image> pattern;
+    if (component == Component::kHalo) {
+        pattern = components.halo();
+        term.weight = pattern ? 1 : 0;
+    } else if (eye.eyelashes > 0) {
+        auto parts = components.corona_and_streaks(false, true);
+        pattern = std::move(parts.streaks);
+        term.weight = pattern ? parts.blocked_share : 0;
+    }
+    if (!pattern) return term;
+    term.relative = Image(raster.width, raster.height, 3);
+    const int margin_x = (raster.width - pattern->width()) / 2;
+    const int margin_y = (raster.height - pattern->height()) / 2;
+    const auto weight = static_cast<float>(term.weight);
+    for (int c = 0; c < 3; ++c) {
+        for (int y = 0; y < pattern->height(); ++y) {
+            const float* from = pattern->row(y, c);
+            std::transform(from, from + pattern->width(),
+                           term.relative.row(margin_y + y, c) + margin_x,
+                           [weight](float value) { return weight * value; });
         }
-    });
-    Sums total;
-    for (const Sums& row : rows) {
-        total.open += row.open;
-        total.blocked += row.blocked;
     }
-    return total.open > 0 ? total.blocked / total.open : 0;
+    return term;
 }
 
-double weight_of(Component component, const Eye& eye, const wave::ApertureGrid& aperture) {
-    switch (component) {
-        case Component::kCorona:
-            return eye.corona_contrast > 0 ? 1 : 0;
-        case Component::kHalo:
-            return shows_fibres(eye) ? 1 : 0;
-        case Component::kStreaks:
-            return eye.eyelashes > 0 ? blocked_share(eye, aperture) : 0;
-        case Component::kBloom:
-            break;
+// S (T' - 1).
+FlipbookTerm texture(const Eye& eye, const wave::KernelGrid& raster, const EyePsfOptions& options) {
+    FlipbookTerm term;
+    if (!(eye.corona_contrast > 0)) return term;
+    term.weight = 1;
+    term.relative = eye_component(Component::kCorona, eye, raster, options).kernel;
+    const ScatterPsf model(eye.scatter, eye.age_years, eye.pigmentation, eye.pupil_diameter_mm);
+    const Image scatter = ScatterPixels(model, raster).image(raster.width, raster.height);
+    for (int c = 0; c < 3; ++c) {
+        std::transform(term.relative.plane(c), term.relative.plane(c) + scatter.pixels(),
+                       scatter.plane(0), term.relative.plane(c), std::minus<>());
     }
-    return 0;
+    return term;
 }
 
 }  // namespace
+
+double flipbook_whole_to_deg(const wave::KernelGrid& raster, const wave::ApertureGrid& aperture) {
+    const int half = raster.width / 2;
+    const double whole_px = patterns_fade(raster, aperture) ? (half + 1) * (1 - kFadeShare) : half;
+    const View view = raster.view();
+    return view.angle_from_axis_deg(view.axis_x + whole_px, view.axis_y);
+}
 
 Eye eye_at(const Eye& eye, const FlipbookFrame& frame) {
     Eye at = eye;
@@ -94,26 +110,16 @@ Image flipbook_envelope(const Eye& eye, const FlipbookRange& range,
 
 FlipbookTerm flipbook_term(Component component, const Eye& eye, const Image& envelope,
                            const wave::KernelGrid& raster, const EyePsfOptions& options) {
-    FlipbookTerm term;
-    term.weight = weight_of(component, eye, options.aperture);
+    FlipbookTerm term = component == Component::kCorona
+                            ? texture(eye, raster, options)
+                            : diffracted(component, eye, raster, options);
     if (term.weight == 0) return term;
-    term.relative = eye_component(component, eye, raster, options).kernel;
-    Image scatter;
-    if (component == Component::kCorona) {
-        scatter = ScatterPixels(ScatterPsf(eye.scatter, eye.age_years, eye.pigmentation,
-                                           eye.pupil_diameter_mm),
-                                raster)
-                      .image(raster.width, raster.height);
-    }
     const int half = raster.width / 2;
-    const bool fades = reach_px(raster, options.aperture) > half;
-    const auto weight = static_cast<float>(term.weight);
+    const bool fades = patterns_fade(raster, options.aperture);
     for (int c = 0; c < 3; ++c) {
         for (int y = 0; y < raster.height; ++y) {
             float* value = term.relative.row(y, c);
             for (int x = 0; x < raster.width; ++x) {
-                value[x] *= weight;
-                if (!scatter.empty()) value[x] -= scatter.at(x, y);
                 if (fades) {
                     const double edge = 1 - std::hypot(x - half, y - half) / (half + 1);
                     value[x] *= static_cast<float>(smoothstep(0, kFadeShare, edge));

@@ -11,7 +11,11 @@ namespace aureole::eye {
 // The eye of a frame.
 Eye eye_at(const Eye& eye, const FlipbookFrame& frame);
 
-// e: the scatter of the book's middle pupil, one channel; within 4 pixels of the source as 4 pixels
+// The angle from the source up to which a book has whole patterns; farther out they fade, or the
+// raster has corners only.
+double flipbook_whole_to_deg(const wave::KernelGrid& raster, const wave::ApertureGrid& aperture);
+
+// e: the scatter of the book's middle pupil, one channel; within 2 pixels of the source as 2 pixels
 // away from it. There the scatter holds most of all energy: it would make a loss of energy of what
 // rounding leaves.
 Image flipbook_envelope(const Eye& eye, const FlipbookRange& range, const wave::KernelGrid& raster);

@@ -34,6 +34,7 @@ FlipbookRange small_range() {
     range.texture_pupils = 2;
     range.lens_states = 3;
     range.vitreous_phases = 3;
+    range.covered_phases = 2;
     range.halo_pupils = 2;
     range.streak_pupils = 2;
     range.lid_states = 2;
@@ -81,7 +82,7 @@ class FlipbookTest : public testing::Test {
 };
 
 TEST_F(FlipbookTest, HasTheFramesOfItsRange) {
-    EXPECT_EQ(book.frames().size(), 2U * 5U + 2U + 2U * 3U);
+    EXPECT_EQ(book.frames().size(), 2U * (5U + 2U) + 2U * 2U + 2U * 3U);
     EXPECT_EQ(book.frames().size(), frames_of(small_range()).size());
     EXPECT_EQ(book.frames().size(), FlipbookAxes(small_range()).frames);
     EXPECT_EQ(book.grid().width, 63);
@@ -110,28 +111,56 @@ TEST_F(FlipbookTest, HasTheFramesOfItsRange) {
 
 TEST_F(FlipbookTest, IsTheDirectPsfAtItsFrames) {
     for (const FlipbookFrame& frame : frames_of(small_range())) {
-        if (frame.component != Component::kStreaks || frame.eyelid > 0) continue;
+        if (frame.component != Component::kStreaks) continue;
         Eye now;
         now.pupil_diameter_mm = frame.pupil_mm;
+        now.eyelid = frame.eyelid;
         now.pose = frame.pose;
         now.halo = 3;
         now.streaks = 0.7;
         const wave::Psf direct = eye_psf(now, kRaster, small_options());
         const wave::Psf psf = played(player, now);
+        double squares = 0;
+        double differences = 0;
         for (int c = 0; c < 3; ++c) {
-            for (int y = 0; y < kRaster.height; ++y) {
-                for (int x = 0; x < kRaster.width; ++x) {
-                    const float wanted = direct.kernel.at(x, y, c);
-                    // Of what is there, or of the veil: in colours outside the gamut both cancel.
-                    EXPECT_NEAR(psf.kernel.at(x, y, c), wanted,
-                                2e-3F * (std::abs(wanted) + player.envelope().at(x, y)));
-                }
+            for (std::size_t i = 0; i < direct.kernel.pixels(); ++i) {
+                const auto e = static_cast<double>(player.envelope().plane(0)[i]);
+                const auto wanted = static_cast<double>(direct.kernel.plane(c)[i]);
+                const auto value = static_cast<double>(psf.kernel.plane(c)[i]);
+                squares += std::pow(wanted / e, 2);
+                differences += std::pow((value - wanted) / e, 2);
             }
         }
+        EXPECT_LT(std::sqrt(differences / squares), 0.01)
+            << frame.pupil_mm << " mm, lids " << frame.eyelid;
     }
-    const FlipbookErrors errors = errors_at_frames(book, Eye(), small_options(), 4);
-    EXPECT_EQ(errors.poses, 4);
-    EXPECT_LT(errors.worst_ring, 5e-3);
+    for (const FlipbookLids lids : {FlipbookLids::kOpen, FlipbookLids::kCovering}) {
+        const FlipbookErrors errors = errors_at_frames(book, Eye(), small_options(), lids, 4);
+        EXPECT_EQ(errors.poses, 4);
+        EXPECT_LT(errors.worst_ring, 0.01);
+    }
+}
+
+// Small rasters fade patterns out: they are measured as far as they are whole, or not at all.
+TEST(FlipbookErrors, AreThoseOfWholePatterns) {
+    wave::KernelGrid raster = kRaster;
+    FlipbookRange range;
+    range.pupil_from_mm = range.pupil_to_mm = 6;
+    range.texture_pupils = range.lens_states = range.vitreous_phases = range.halo_pupils =
+        range.streak_pupils = range.lid_states = 1;
+    const auto errors = [&] {
+        const auto bytes = bake_flipbook(Eye(), raster, range, small_options());
+        return errors_at_frames(Flipbook(bytes), Eye(), small_options(), FlipbookLids::kOpen, 1);
+    };
+    raster.pitch_deg = 0.06;  // 1.9 deg from the source, the last eighth faded
+    const FlipbookErrors near_source = errors();
+    EXPECT_NEAR(near_source.to_deg, 28 * 0.06, 0.01);
+    EXPECT_EQ(near_source.poses, 1);
+    EXPECT_LT(near_source.worst_ring, 0.02);
+    raster.pitch_deg = 0.3;  // all of the pattern fits
+    EXPECT_EQ(errors().to_deg, 5);
+    raster.pitch_deg = 0.01;
+    EXPECT_EQ(errors().poses, 0);
 }
 
 TEST_F(FlipbookTest, EnergySumsToOneInKernelsOfAnySize) {
@@ -184,6 +213,7 @@ TEST_F(FlipbookTest, TextureIsOneFrameAndNeverABlend) {
     for (int i = 0; i < 20; ++i) {
         Eye now;
         now.pupil_diameter_mm = random.uniform(5, 7);
+        now.eyelid = i % 3 == 0 ? random.uniform(0, 0.6) : 0;
         now.pose.lens_scale = random.uniform(0.998, 1.002);
         now.pose.vitreous_yaw_deg = i < 10 ? 0 : random.uniform(-3, 3);
         now.pose.vitreous_pitch_deg = i < 10 ? 0 : random.uniform(-3, 3);
@@ -192,6 +222,7 @@ TEST_F(FlipbookTest, TextureIsOneFrameAndNeverABlend) {
         for (const FlipbookFrame& frame : frames) {
             if (frame.component != Component::kCorona) continue;
             Eye stored;
+            stored.eyelid = frame.eyelid;
             stored.pupil_diameter_mm = frame.pupil_mm;
             stored.pose = frame.pose;
             found += identical(texture, term(player, Component::kCorona, stored)) ? 1 : 0;
@@ -223,6 +254,8 @@ TEST_F(FlipbookTest, HaloAndStreaksAreStraightBetweenFrames) {
     };
     expect_mix(at(Component::kHalo, 5.5, 0, 0),
                {{0.75, at(Component::kHalo, 5, 0, 0)}, {0.25, at(Component::kHalo, 7, 0, 0)}});
+    expect_mix(at(Component::kHalo, 5, 0, 0.1),
+               {{0.8, at(Component::kHalo, 5, 0, 0)}, {0.2, at(Component::kHalo, 5, 0, 0.5)}});
     expect_mix(at(Component::kStreaks, 5, 0.3, 0.1),
                {{0.4, at(Component::kStreaks, 5, 0, 0)},
                 {0.6 * 2 / 3, at(Component::kStreaks, 5, 0.5, 0)},
@@ -248,6 +281,45 @@ TEST_F(FlipbookTest, VitreousPhasesFormALoop) {
     }
 }
 
+// Behind lids there are other patterns, and what moves in the eye goes on to move them.
+TEST_F(FlipbookTest, LidsHaveTheirOwnTextures) {
+    Eye lids;
+    lids.eyelid = 0.5;
+    const Image still = term(player, Component::kCorona, lids);
+    EXPECT_FALSE(identical(still, term(player, Component::kCorona, Eye())));
+    Eye turned = lids;
+    turned.pose.vitreous_yaw_deg = 0.2;
+    EXPECT_FALSE(identical(term(player, Component::kCorona, turned), still));
+    Eye focused = lids;
+    focused.pose.lens_scale = 1.002;
+    EXPECT_FALSE(identical(term(player, Component::kCorona, focused), still));
+    // Nearer to open: the open ones.
+    Eye nearly_open = Eye();
+    nearly_open.eyelid = 0.2;
+    EXPECT_TRUE(identical(term(player, Component::kCorona, nearly_open),
+                          term(player, Component::kCorona, Eye())));
+}
+
+// Lids that hide all fibres of a narrow slit leave no halo: an empty frame, not an error.
+TEST(Flipbook, LidsMayHideTheWholeHalo) {
+    Eye cat;
+    cat.anatomy.pupil.shape = PupilShape::kSlit;
+    FlipbookRange range = small_range();
+    range.pupil_from_mm = 2;
+    range.pupil_to_mm = 4;
+    range.halo_pupils = 1;
+    range.largest_closure = 0.9;
+    const auto bytes = bake_flipbook(cat, kRaster, range, small_options());
+    const Flipbook book(bytes);
+    FlipbookPlayer player(book, cat, small_options().spectral, kRaster);
+    cat.pupil_diameter_mm = 4;
+    cat.eyelid = 0.9;
+    const wave::Psf direct = eye_psf(cat, kRaster, small_options());
+    const wave::Psf psf = played(player, cat);
+    EXPECT_LT(rms_difference(psf.kernel, direct.kernel),
+              0.01 * rms_difference(direct.kernel, Image(63, 63, 3)));
+}
+
 TEST_F(FlipbookTest, PlaysTheSameOnAnyNumberOfThreads) {
     Eye now;
     now.pupil_diameter_mm = 6.3;
@@ -270,11 +342,11 @@ TEST(Flipbook, FollowsAScatterThatKnowsThePupil) {
         const wave::Psf direct = eye_psf(eye, kRaster, small_options());
         const wave::Psf psf = played(player, eye);
         for (std::size_t c = 0; c < 3; ++c) {
-            EXPECT_NEAR(psf.off_kernel_energy[c], direct.off_kernel_energy[c], 1e-5);
+            EXPECT_NEAR(psf.off_kernel_energy[c], direct.off_kernel_energy[c], 1e-4);
         }
         for (int x = 0; x < kRaster.width; ++x) {
             EXPECT_NEAR(psf.kernel.at(x, 31, 1), direct.kernel.at(x, 31, 1),
-                        3e-3F * direct.kernel.at(x, 31, 1));
+                        0.03F * direct.kernel.at(x, 31, 1));
         }
     }
     // Between them the energy still is whole.

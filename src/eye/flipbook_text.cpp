@@ -38,6 +38,18 @@ const char* name_of(Projection projection) {
     return projection == Projection::kPerspective ? "perspective" : "constant-pitch";
 }
 
+const char* name_of(PupilShape shape) {
+    switch (shape) {
+        case PupilShape::kSlit:
+            return "slit";
+        case PupilShape::kEllipse:
+            return "ellipse";
+        case PupilShape::kRound:
+            break;
+    }
+    return "round";
+}
+
 // Calls visit(name, field) for each field of the text that is a number, in the order of the file.
 template <class Text, class Visit>
 void for_each_number(Text& text, const Visit& visit) {
@@ -52,6 +64,7 @@ void for_each_number(Text& text, const Visit& visit) {
     visit("lens_scale_span", range.lens_scale_span);
     visit("vitreous_phases", range.vitreous_phases);
     visit("vitreous_step_deg", range.vitreous_step_deg);
+    visit("covered_phases", range.covered_phases);
     visit("halo_pupils", range.halo_pupils);
     visit("streak_pupils", range.streak_pupils);
     visit("lid_states", range.lid_states);
@@ -128,7 +141,7 @@ std::vector<NamedValue> identity_of(const Eye& eye, const SpectralSampling& samp
     values.add("lashes.distance_mm", anatomy.lashes.distance_mm);
     values.add("lashes.curled_per_mm", anatomy.lashes.curled_per_mm);
     values.add("lashes.curl_deg", anatomy.lashes.curl_deg);
-    values.add("pupil.shape", static_cast<int>(anatomy.pupil.shape));
+    values.add("pupil.shape", name_of(anatomy.pupil.shape));
     values.add("pupil.axis_ratio", anatomy.pupil.axis_ratio);
     values.add("pupil.iris_mm", anatomy.pupil.iris_mm);
     values.add("pupil.rotation_deg", anatomy.pupil.rotation_deg);

@@ -9,7 +9,6 @@
 #include "aureole/base/error.h"
 #include "aureole/base/random.h"
 #include "aureole/base/units.h"
-#include "aureole/fourier/half_spectrum.h"
 
 namespace aureole::fourier {
 namespace {
@@ -83,44 +82,6 @@ TEST(SymmetricFft, SizesAreChecked) {
     EXPECT_THROW(SymmetricFft(15), InvalidArgument);
     EXPECT_THROW(SymmetricFft(0), InvalidArgument);
     EXPECT_THROW(SymmetricFft(22), InvalidArgument);
-}
-
-TEST(HalfSpectrum, NumbersKeepElevenBitsOverNineDecadesAndAddUp) {
-    std::vector<float> values;
-    Random random(1);
-    for (int i = 0; i < 1003; ++i) {
-        values.push_back(static_cast<float>(random.log_uniform(1e-3, 1e5)));
-        if (i % 2 == 0) values.back() = -values.back();
-    }
-    std::vector<std::uint16_t> halves(values.size());
-    const float scale = encode_spectrum(values, halves.data());
-    std::vector<float> sum(values.size());
-    add_spectrum(halves, scale, sum.data());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        EXPECT_NEAR(sum[i], values[i], std::abs(values[i]) * 0x1p-11F) << i;
-    }
-    const std::vector<float> once = sum;
-    add_spectrum(halves, -0.5F * scale, sum.data());
-    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(sum[i], 0.5F * once[i]);
-}
-
-TEST(HalfSpectrum, ZerosHaveTheScaleZero) {
-    const std::vector<float> values(5);
-    std::vector<std::uint16_t> halves(5, 1);
-    EXPECT_EQ(encode_spectrum(values, halves.data()), 0.0F);
-    EXPECT_EQ(halves, std::vector<std::uint16_t>(5));
-}
-
-// Values that differ by any power of two have the same halves.
-TEST(HalfSpectrum, DoesNotDependOnTheLevel) {
-    const std::vector<float> values = {1.0F, -0.3F, 0.001F};
-    std::vector<float> faint = values;
-    for (float& value : faint) value *= 0x1p-60F;
-    std::vector<std::uint16_t> halves(3);
-    std::vector<std::uint16_t> faint_halves(3);
-    const float scale = encode_spectrum(values, halves.data());
-    EXPECT_EQ(encode_spectrum(faint, faint_halves.data()), scale * 0x1p-60F);
-    EXPECT_EQ(halves, faint_halves);
 }
 
 }  // namespace

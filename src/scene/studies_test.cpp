@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -175,6 +176,48 @@ TEST(SunsetScene, TheSeaHidesTheSun) {
     const double light = color::luminance(light_of(make_sunset(view, {0}).rgb, view));
     const double gone = color::luminance(light_of(make_sunset(view, {-0.3}).rgb, view));
     EXPECT_NEAR((light - gone) / sun, 0.5, 0.01);
+}
+
+// The sun's path lies below it and outshines the rest of the sea; waves are seen from the horizon
+// on, least there, so that there is no line where they begin.
+TEST(SunsetScene, TheSeaMirrorsTheSunAndShowsWavesEverywhere) {
+    const View view = view_of(480, 270, 20);
+    const Image picture = make_sunset(view, {1}).rgb;
+    const auto row_mean = [&](int y, int from, int to) {
+        double sum = 0;
+        for (int x = from; x < to; ++x) sum += double{picture.at(x, y, 0)};
+        return sum / (to - from);
+    };
+    for (int top = 178; top < 268; top += 10) {
+        double path = 0;
+        double aside = 0;
+        for (int y = top; y < top + 10; ++y) {
+            path += row_mean(y, 230, 250);
+            aside += row_mean(y, 20, 120);
+        }
+        EXPECT_GT(path, 10 * aside) << top;
+    }
+    // Contrast along columns away from the path, in bands of 12 rows from the horizon on.
+    std::vector<double> contrasts;
+    for (int top = 178; top + 12 <= 270; top += 12) {
+        double contrast = 0;
+        for (int x = 20; x < 120; ++x) {
+            double sum = 0;
+            double squares = 0;
+            for (int y = top; y < top + 12; ++y) {
+                // Relative to its row: the sky that is mirrored changes, too.
+                const double value = double{picture.at(x, y, 0)} / row_mean(y, 20, 120);
+                sum += value / 12;
+                squares += value * value / 12;
+            }
+            contrast += std::sqrt(std::max(0.0, squares - sum * sum)) / 100;
+        }
+        contrasts.push_back(contrast);
+    }
+    const auto [least, most] = std::minmax_element(contrasts.begin(), contrasts.end());
+    EXPECT_EQ(least, contrasts.begin());
+    EXPECT_GT(*least, 0.05);
+    EXPECT_LT(*least, 0.6 * *most);
 }
 
 TEST(Studies, DoNotDependOnTheNumberOfThreads) {

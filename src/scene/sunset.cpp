@@ -1,4 +1,5 @@
-// The sun going down behind the sea.
+// The sun going down behind the sea (water_surface.h). Its path on the water is its reflection in
+// all facets that lean the right way.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,8 +10,8 @@
 #include "scene/builders.h"
 #include "scene/camera.h"
 #include "scene/coverage.h"
-#include "scene/noise.h"
 #include "scene/study_checks.h"
+#include "scene/water_surface.h"
 
 namespace aureole::scene {
 namespace {
@@ -19,6 +20,8 @@ constexpr double kSunRadiusDeg = 0.265;
 constexpr double kSunLuminance = 1.6e9;  // cd/m2, outside the air
 constexpr double kSunSolidAngleSr = 6.72e-5;
 constexpr double kViewPitchDeg = 1.5;
+constexpr int kSamplesPerSide = 3;  // of a pixel of the sea
+constexpr int kSamples = kSamplesPerSide * kSamplesPerSide;
 constexpr double kGlowDeg = 5;       // e-folding angle of the glow around the sun
 constexpr double kScattered = 0.05;  // share of the sun's light that haze scatters into it
 
@@ -30,6 +33,22 @@ double air_mass(double elevation_deg) {
     return mass * std::exp(-0.26 * std::min(elevation_deg, 0.0));
 }
 
+// The part of the sun that is above the horizon: its share of the disc, and the elevation of its
+// middle.
+struct VisibleSun {
+    double share = 0;
+    double elevation_deg = 0;
+};
+
+VisibleSun visible_sun(double elevation_deg) {
+    const double cut = std::clamp(-elevation_deg / kSunRadiusDeg, -1.0, 1.0);  // in radii
+    const double chord = std::sqrt(1 - cut * cut);
+    const double area = std::acos(cut) - cut * chord;
+    if (!(area > 0)) return {};
+    // The centroid of a segment lies 2/3 c^3 / area above the centre.
+    return {area / kPi, elevation_deg + kSunRadiusDeg * 2.0 / 3 * chord * chord * chord / area};
+}
+
 // Luminance at the horizon away from the sun.
 float horizon_luminance(double sun_elevation_deg) {
     return static_cast<float>(400 * std::pow(10.0, sun_elevation_deg / 5.6));
@@ -37,13 +56,21 @@ float horizon_luminance(double sun_elevation_deg) {
 
 class Evening {
   public:
-    explicit Evening(double sun_elevation_deg)
-        : level_(horizon_luminance(sun_elevation_deg)),
+    // `sample_size`: of a sample of the picture at distance 1.
+    Evening(double sun_elevation_deg, float sample_size)
+        : surface_({.wind_m_s = 3, .longest_m = 60, .waves = 40, .heading_deg = 90}),
+          sample_size_(sample_size),
+          level_(horizon_luminance(sun_elevation_deg)),
           glow_(vec(setting_sun_cd_m2(sun_elevation_deg)) *
                 static_cast<float>(kSunSolidAngleSr * kScattered /
                                    (2 * kPi * std::pow(rad_from_deg(kGlowDeg), 2)))) {
         const auto e = static_cast<float>(rad_from_deg(sun_elevation_deg));
         sun_ = {0, std::sin(e), std::cos(e)};
+        const VisibleSun visible = visible_sun(sun_elevation_deg);
+        const auto middle = static_cast<float>(rad_from_deg(visible.elevation_deg));
+        lit_from_ = {0, std::sin(middle), std::cos(middle)};
+        illuminance_ = vec(setting_sun_cd_m2(sun_elevation_deg)) *
+                       static_cast<float>(kSunSolidAngleSr * visible.share);
     }
 
     Vec3 sky(Vec3 direction) const {
@@ -58,21 +85,37 @@ class Evening {
                glow_ * std::exp(-to_sun / static_cast<float>(kGlowDeg));
     }
 
-    // Ripples mirror the sky above, stretched downwards; `footprint_m` is along the view.
-    Vec3 sea(Vec3 direction, float x_m, float z_m, float footprint_m) const {
-        constexpr float kReflectance = 0.45F;
-        const float ripples = fractal_noise(2 * x_m, z_m, 12, 4, footprint_m, 41);
-        const float up = 0.03F - direction.y * (1 + 0.4F * ripples);
-        const Vec3 mirrored = normalize({0.5F * direction.x, up, direction.z});
-        return sky(mirrored) * (kReflectance * (1 + 0.5F * ripples));
+    // The sea from `height_m` above it, in a direction below the horizon. The facets that are seen
+    // lean towards the eye, so that they mirror higher sky; what they let through comes back as
+    // two per cent of the light of the sky.
+    Vec3 sea(Vec3 direction, float height_m) const {
+        static const Vec3 body = unit_luminance({0.12F, 0.45F, 0.5F});
+        const float distance_m = height_m / -direction.y;
+        const float across_m = sample_size_ * distance_m;
+        const WaterSurface::Slopes slopes =
+            surface_.at(direction * distance_m, across_m, across_m / -direction.y);
+        const Vec3 to_eye = direction * -1.0F;
+        const Vec3 shown = normalize({-slopes.x, 1, -slopes.z});
+        const VisibleFacets facets = visible_facets(dot(shown, to_eye), std::sqrt(slopes.variance));
+        const Vec3 level_to_eye = normalize({to_eye.x, 0, to_eye.z});
+        const Vec3 normal = normalize(shown + level_to_eye * facets.lean);
+        const float facing = std::max(dot(normal, to_eye), 0.0F);
+        const float mirror = fresnel_of_water(facing);
+        return body * (0.02F * level_ * (1 - mirror)) +
+               sky(normalize(normal * (2 * facing) + direction)) * mirror +
+               illuminance_ * glitter(slopes, lit_from_, to_eye);
     }
 
   private:
     static float deg(float rad) { return rad * 57.2957795F; }
 
+    WaterSurface surface_;
+    float sample_size_;
     float level_;
     Vec3 glow_;
     Vec3 sun_;
+    Vec3 lit_from_;
+    Vec3 illuminance_;  // of the visible sun, facing it
 };
 
 }  // namespace
@@ -94,7 +137,7 @@ Scene make_sunset(const View& view, const Sunset& sunset) {
     constexpr float kEyeHeightM = 6;
     Scene scene{Image(view.width, view.height, 3), view, 0, 0};
     const Camera camera(view, {0, kEyeHeightM, 0}, kViewPitchDeg);
-    const Evening evening(sunset.sun_elevation_deg);
+    const Evening evening(sunset.sun_elevation_deg, camera.pixel_size() / kSamplesPerSide);
     const double horizon_y = camera.horizon_y();
 
     const auto store = [&](int x, int y, Vec3 value, float share) {
@@ -122,11 +165,14 @@ Scene make_sunset(const View& view, const Sunset& sunset) {
         const auto share = static_cast<float>(std::clamp(y + 1 - horizon_y, 0.0, 1.0));
         if (share == 0) return;
         for (int x = 0; x < view.width; ++x) {
-            Vec3 look = normalize(camera.ray(x + 0.5, y + 0.5).direction);
-            look.y = std::min(look.y, -2e-4F);
-            const float distance = kEyeHeightM / -look.y;
-            const float footprint = camera.pixel_size() * distance / -look.y;
-            store(x, y, evening.sea(look, look.x * distance, look.z * distance, footprint), share);
+            Vec3 sum;
+            for (int i = 0; i < kSamples; ++i) {
+                const auto offset = sample_offset(i);
+                Vec3 look = normalize(camera.ray(x + offset[0], y + offset[1]).direction);
+                look.y = std::min(look.y, -2e-4F);
+                sum += evening.sea(look, kEyeHeightM);
+            }
+            store(x, y, sum * (1.0F / kSamples), share);
         }
     });
     scene.adaptation_cd_m2 = 0.6 * double{white};

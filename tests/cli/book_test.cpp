@@ -13,8 +13,8 @@ namespace {
 
 // As small as books get: five frames.
 const std::string kBake =
-    "bake --width 96 --fov 40 --size 64 --pupils 5,7 --texture-frames 2,1,1 --halo-frames 1 "
-    "--streak-frames 2,1 --measure 0 ";
+    "bake --width 96 --fov 40 --size 64 --pupils 5,7 --texture-frames 2,1,1,1 --halo-frames 1 "
+    "--streak-frames 2 --lid-states 1 --measure 0 ";
 const std::string kLook = "glare in.exr --fov 40 --adaptation 1 --time 2 ";
 
 class Book : public CliTest {
@@ -40,7 +40,7 @@ TEST_F(Book, IsBakedWholeOrNotAtAllAndTheSameEachTime) {
     EXPECT_EQ(json["bytes"], bytes("book.aureole").size());
     EXPECT_EQ(json["frames"]["texture"], 2);
     EXPECT_EQ(json["frames"]["streaks"], 2);
-    EXPECT_EQ(json["parameters"]["age_years"], "30");
+    EXPECT_EQ(json["parameters"]["age_years"], 30);
     Conditions full;
     full.largest_file = 30'000;
     const Outcome outcome = run(kBake + "-o full.aureole", full);
@@ -52,10 +52,21 @@ TEST_F(Book, IsBakedWholeOrNotAtAllAndTheSameEachTime) {
 
 TEST_F(Book, ReportsItsErrors) {
     const auto json = report(
-        "bake -o b.aureole --width 96 --fov 40 --size 64 --pupils 5,7 --texture-frames 2,1,1 "
-        "--halo-frames 2 --streak-frames 2,1 --measure 1");
-    EXPECT_LT(json["errors"]["at_frames"]["worst_ring"], 0.02);
-    EXPECT_GT(json["errors"]["between_frames"]["texture"], 0.1);
+        "bake -o b.aureole --width 96 --fov 40 --size 64 --pupils 5,7 --texture-frames 2,1,1,1 "
+        "--halo-frames 2 --streak-frames 2 --lid-states 2 --measure 1");
+    for (const char* lids : {"open_lids", "covering_lids"}) {
+        EXPECT_LT(json["errors"]["at_frames"][lids]["worst_ring"], 0.02);
+        EXPECT_GT(json["errors"]["between_frames"][lids]["texture"], 0.1);
+    }
+    EXPECT_EQ(json["errors"]["to_deg"], 5);
+}
+
+// A raster that cuts its patterns is measured where it keeps them.
+TEST_F(Book, SaysUpToWhichAngleItIsMeasured) {
+    const Outcome outcome =
+        run("bake -o b.aureole --size 96 --pupils 6,6 --texture-frames 1,1,1,1 --halo-frames 1 "
+            "--streak-frames 1 --lid-states 1 --measure 1");
+    EXPECT_TRUE(names_all(outcome.out, {"worst ring from 0.3 to 1.4 deg"})) << outcome.out;
 }
 
 TEST_F(Book, ShowsNearlyWhatDirectComputationShows) {
@@ -113,7 +124,8 @@ TEST_F(Book, WhatIsNotTheBooksIsRefusedWithBothValues) {
         {"--seed 2", {"--seed", "1", "2"}},
         {"--scatter ijspeert", {"--scatter", "cie", "ijspeert"}},
         {"--pigmentation blue", {"--pigmentation", "brown", "blue"}},
-        {"--preset vivid", {"--corona-contrast", "--preset", "1", "3.4"}},
+        {"--preset vivid", {"--corona-contrast", "--preset", "1", "3.44639"}},
+        {"--pupil-shape slit", {"--pupil-shape", "round", "slit"}},
         {"--source-spectrum sodium", {"--source-spectrum", "d65", "sodium"}},
         {"--perspective on", {"--perspective", "off", "on"}}};
     for (const auto& [words, named] : cases) {
@@ -133,13 +145,16 @@ TEST_F(Book, OptionsThatDoNotGoTogetherAreNamed) {
     EXPECT_TRUE(names_all(refusal(look + "--observer camera", 2), {"--book", "--observer eye"}));
     EXPECT_TRUE(names_all(refusal(look + "--time 1 --psf in.exr", 2), {"--psf", "--time"}));
     EXPECT_TRUE(names_all(refusal(kBake + "-o b.aureole --pupil 4", 2), {"--pupil"}));
-    EXPECT_TRUE(names_all(refusal(kBake + "-o b.aureole --scatter none", 2), {"scatter", "none"}));
+    EXPECT_TRUE(
+        names_all(refusal(kBake + "-o b.aureole --scatter none", 2), {"--scatter", "none"}));
+    EXPECT_TRUE(names_all(refusal(kBake + "-o b.aureole --source-spectrum rgb", 2),
+                          {"--source-spectrum", "rgb"}));
     EXPECT_TRUE(names_all(refusal("bake -o b.aureole --size 511", 2), {"511", "even"}));
     EXPECT_TRUE(names_all(refusal("bake -o b.aureole --pupils 8,2", 2), {"--pupils", "8,2"}));
-    EXPECT_TRUE(names_all(refusal("bake -o b.aureole --texture-frames 7,2,4", 2),
+    EXPECT_TRUE(names_all(refusal("bake -o b.aureole --texture-frames 7,2,4,1", 2),
                           {"--texture-frames", "odd"}));
-    EXPECT_TRUE(names_all(refusal("bake -o b.aureole --streak-frames 3", 2),
-                          {"--streak-frames", "2 whole numbers"}));
+    EXPECT_TRUE(names_all(refusal("bake -o b.aureole --texture-frames 3,1", 2),
+                          {"--texture-frames", "4 whole numbers"}));
 }
 
 TEST_F(Book, DamagedAndForeignFilesAreNamed) {

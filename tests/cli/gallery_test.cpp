@@ -20,12 +20,15 @@ TEST_F(Gallery, WritesSheetsAPageAndNumbersThatBalance) {
         EXPECT_TRUE(exists("out/" + name + ".png")) << name;
         EXPECT_TRUE(exists("out/" + name + ".0000.png")) << name;
         EXPECT_TRUE(names_all(page, {name + ".png"}));
+        EXPECT_TRUE(names_all(page, {one["frames"].back()["label"].get<std::string>()}));
         for (const auto& panel : one["panels"]) {
             const auto& energy = panel["energy"];
             const double in = energy["in"].get<double>() + energy["from_surround"].get<double>();
             const double out = energy["out"].get<double>() + energy["off_picture"].get<double>() +
                                energy["blocked"].get<double>();
             EXPECT_NEAR(out, in, 1e-4 * in) << name;
+            EXPECT_GT(energy["spread"], 0);
+            EXPECT_LT(energy["spread"], energy["in"]);
             EXPECT_TRUE(names_all(page, {panel["label"].get<std::string>()}));
         }
     }

@@ -7,7 +7,7 @@
 //     player.write(living.at(time_s).eye, psf);                              (each frame)
 //
 // Stored are the terms of the PSF (eye_psf.h) relative to an envelope e, the scatter of the book's
-// middle pupil (flat within 4 pixels of the source), each as the spectrum of
+// middle pupil (flat within 2 pixels of the source), each as the spectrum of
 //
 //     texture  S (T' - 1) / e        halo  H / e        streaks  w_e E / e
 //
@@ -17,7 +17,7 @@
 //         (1 - c) texture + w_h halo + streaks,     all frames selected by the eye's pose
 //
 // The bloom S is exact: it is not stored. The envelope takes the decades out of what is, so that
-// rounding to half precision is a fixed share of the veil at every angle. docs/flipbooks.md has the
+// rounding to bytes is a fixed share of the veil at every angle. docs/flipbooks.md has the
 // equations, the file format and the errors.
 #pragma once
 
@@ -40,8 +40,8 @@ namespace aureole::eye {
 struct FlipbookRange {
     double pupil_from_mm = 2;  // 1 to 9
     double pupil_to_mm = 8;    // pupil_from_mm to 9
-    // Texture: every pupil with every particle state. These are the states of the lens with the
-    // vitreous at rest, then the phases of a turning vitreous with the lens at rest.
+    // Texture: every pupil with every particle state. With open lids these are the states of the
+    // lens with the vitreous at rest, then the phases of a turning vitreous with the lens at rest.
     int texture_pupils = 7;           // 1 to 100
     int lens_states = 3;              // 1 to 99, odd: the one in the middle is at rest
     double lens_scale_span = 0.0018;  // largest deviation of Pose::lens_scale from 1 that has a
@@ -49,11 +49,14 @@ struct FlipbookRange {
     int vitreous_phases = 4;          // 1 (at rest) to 100
     double vitreous_step_deg = 0.2;   // of yaw from one phase to the next, enough to renew most
                                       // needles beyond 2 deg; above 0 to 10
-    // Halo: pupils from kHaloFromMm on (none if all are smaller), with the lens at rest.
+    int covered_phases = 2;  // as many of them behind each closure of lids; 1 (at rest) to 100
+    // Halo: pupils from kHaloFromMm on (none if all are smaller) with every closure of lids that
+    // cover the pupil, with the lens at rest.
     int halo_pupils = 9;  // 1 to 100
     // Streaks: every pupil with every closure, of lashes alone (Pose::lash_closure) and of lids
     // that cover the pupil with them (Eye::eyelid); the open state is common to both.
-    int streak_pupils = 4;         // 1 to 100
+    int streak_pupils = 4;  // 1 to 100
+    // Closures, of all three.
     int lid_states = 4;            // 1 (open) to 100
     double largest_closure = 0.9;  // of the last state, above 0 to .95
 };
@@ -64,8 +67,9 @@ inline constexpr double kHaloFromMm = 4;
 // Throws InvalidArgument that names the first value outside the ranges above.
 void check(const FlipbookRange& range);
 
-// The frames of a range. Texture first: pupils (slowest), particle states; then halo; then streaks:
-// pupils (slowest), lids open, lashes alone, covering lids.
+// The frames of a range. Texture first: pupils (slowest), particle states with open lids, then
+// closures with their phases; then halo: pupils (slowest), closures; then streaks: pupils
+// (slowest), lids open, lashes alone, covering lids.
 struct FlipbookFrame {
     Component component;  // kCorona, kHalo, kStreaks
     double pupil_mm = 0;
@@ -107,8 +111,8 @@ class Flipbook {
         double weight = 0;                  // w_e of streaks, else 1; 0: an empty frame
         std::array<double, 3> energy = {};  // of e times the frame over the raster, per colour;
                                             // 0 but for rounding in the texture
-        std::array<float, 3> scale = {};    // of the halves, per colour
-        std::array<std::span<const std::uint16_t>, 3> spectra;
+        std::array<float, 3> scale = {};    // per colour, of its spectrum (byte_spectrum.h)
+        std::array<const std::byte*, 3> spectra = {};
     };
     // In the order of frames_of().
     const std::vector<Frame>& frames() const { return frames_; }

@@ -23,24 +23,33 @@ std::vector<std::byte> bake_flipbook(const Eye& eye, const wave::KernelGrid& ras
                                      const EyePsfOptions& options = {},
                                      Progress* progress = nullptr);
 
-// Root mean squares of differences from direct computation (eye_psf, eye_component), over that of
-// what should be, between 0.3 and 5 deg and relative to the scatter there, all colours together.
+// Root mean squares of differences from direct computation (eye_psf), over that of what should be,
+// in an annulus around the source and relative to the scatter there, all colours together.
 struct FlipbookErrors {
+    // The annulus. It ends where patterns are no longer whole, if that is nearer than 5 deg: small
+    // rasters let them fade out. No pose is measured if nothing is left of it.
+    double from_deg = 0.3;
+    double to_deg = 5;
+    int poses = 0;
     double texture = 0;  // of T' - 1; two patterns that have nothing in common differ by sqrt(2)
     double halo = 0;
     double streaks = 0;
     double psf = 0;         // of the whole PSF
     double worst_ring = 0;  // of the whole PSF, in the worst ring of a tenth of a degree
-    int poses = 0;
 };
 
-// At frames of the book: each pose has stored frames for all three terms, with open lids.
+enum class FlipbookLids {
+    kOpen,      // they cover nothing, but lashes may come down (Pose::lash_closure)
+    kCovering,  // Eye::eyelid; no pose of a book that has open lids only
+};
+
+// At frames of the book: each pose has stored frames for all three terms.
 FlipbookErrors errors_at_frames(const Flipbook& book, const Eye& eye, const EyePsfOptions& options,
-                                int poses, Progress* progress = nullptr);
+                                FlipbookLids lids, int poses, Progress* progress = nullptr);
 // At random poses within its range: any pupil, lens within its span, a vitreous turned by up to a
-// degree, lids closed by up to a half, in every other pose by lashes alone.
+// degree, lids or lashes closed by up to the largest closure.
 FlipbookErrors errors_between_frames(const Flipbook& book, const Eye& eye,
-                                     const EyePsfOptions& options, int poses,
+                                     const EyePsfOptions& options, FlipbookLids lids, int poses,
                                      Progress* progress = nullptr);
 
 }  // namespace aureole::eye

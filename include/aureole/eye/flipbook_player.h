@@ -32,8 +32,8 @@ class FlipbookPlayer {
     //   texture: the nearest frame. A vitreous that has turned by (yaw, pitch, roll) steps is at
     //            phase yaw + 2 pitch + 3 roll, rounded each, in a loop over all phases: one
     //            particle pattern is as good as another, and neighbours differ. The lens counts at
-    //            phase 0
-    //   halo:    between two pupils
+    //            phase 0; behind lids its states are further steps of the loop
+    //   halo:    between two pupils and two closures of lids
     //   streaks: between two pupils, two closures, and lashes alone and covering lids
     // `psf` must have grid()'s kernel of three channels. Its energy sums to 1, as eye_psf's.
     // Allocates nothing; the same bits on any number of threads; one thread at a time.

@@ -97,7 +97,9 @@ struct Sunset {
     double sun_elevation_deg = 3;  // of the centre, without refraction; -3 to 15
 };
 // Sun as setting_sun_cd_m2() over 0.53 deg as far as it is above the horizon; sky 400 cd/m2 with
-// the sun on the horizon, a decade more or less for every 5.6 deg, and a glow around the sun.
+// the sun on the horizon, a decade more or less for every 5.6 deg, and a glow around the sun. The
+// sea has the waves of a wind of 3 m/s, seen from 6 m above it; it mirrors the sky and, in a path
+// below it, what is visible of the sun (Cox & Munk 1954, with the shadows of Smith 1967).
 Scene make_sunset(const View& view, const Sunset& sunset);
 
 // Luminance of the sun's disc: 1.6e9 cd/m2 outside the air, dimmed by Rayleigh scattering (optical
