@@ -107,14 +107,6 @@ void CameraOptions::add_options(CLI::App& command, const std::string& fallback_l
 
 std::string CameraOptions::first_given() const { return app::first_given(*group_); }
 
-std::string CameraOptions::first_of_iris_given() const {
-    for (const char* name : {"--blades", "--blade-curvature", "--iris-rotation", "--iris-smoothing",
-                             "--iris", "--occluder"}) {
-        if (group_->get_option(name)->count() > 0) return name;
-    }
-    return "";
-}
-
 lens::Iris CameraOptions::iris() const {
     if (iris_file_.empty()) {
         if (shape_.blades == 1 || shape_.blades == 2) {

@@ -39,8 +39,6 @@ class CameraOptions {
 
     // The first of these options that was given, or nothing.
     std::string first_given() const;
-    // Of those that make the star.
-    std::string first_of_iris_given() const;
     // Throws InvalidArgument, FileError.
     Camera camera(Session& session) const;
     const std::string& lens_name() const { return lens_.name(); }

@@ -148,8 +148,6 @@ void GlareCommand::check_camera() {
     ghosts.set_preset(preset);
     ghosts.check();
     refuse(ghosts.any() ? "" : lights.first_given(), "has no effect with --ghosts none");
-    refuse(ghosts.any() || passes != Passes::kBloom ? "" : camera.first_of_iris_given(),
-           "has no effect with --passes bloom and --ghosts none");
     lights.check();
 }
 
@@ -178,14 +176,6 @@ void GlareCommand::check_eye() {
                : "",
            "with --fps needs a luminance that is known for every frame: --adaptation with a table "
            "of `aureole meter` or a number");
-    for (const char* option : {"--halo", "--corona-contrast", "--pigmentation", "--scatter"}) {
-        refuse(spread.passes() == Passes::kStreaks && eye.given(option) ? option : "",
-               "has no effect with --passes streaks");
-    }
-    for (const char* option : {"--streaks", "--eyelashes"}) {
-        refuse(spread.passes() == Passes::kBloom && eye.given(option) ? option : "",
-               "has no effect with --passes bloom");
-    }
     refuse(field_varying.streaks() && (eye.streaks() == 0 || eye.eyelashes() == 0)
                ? "--field-varying"
                : "",

@@ -176,10 +176,6 @@ TEST_F(Passes, RefuseWhatHasNoEffect) {
     refused(" --cluster-side 3", {"--cluster-side", "3", "16"});
     refused(" --cluster-side 4", {"--cluster-side", "4", "sprites", "fft is exact"});
     refused(" --halation .1", {"--halation", "camera"});
-    refused(" --passes streaks --halo 2", {"--halo", "--passes streaks"});
-    refused(" --passes bloom --eyelashes 2", {"--eyelashes", "--passes bloom"});
-    refused(" --passes bloom --observer camera --ghosts none --blades 5",
-            {"--blades", "--passes bloom"});
     refused(" --halation .1 --observer camera", {"--halation", "--passes both"});
     refused(" --halation 2 --observer camera --passes both", {"--halation", "2", "from 0 to 1"});
     refused(" --ghosts none", {"--ghosts", "camera"});
