@@ -9,7 +9,7 @@ namespace {
 
 // Of the error asked for. Near light is exact, so that the far part has all of it; light too dim
 // for it is missing where it should have gone, and nowhere too much.
-constexpr double kShareOfDimLight = 0.1;
+constexpr double kShareOfDimLight = 0.3;
 constexpr double kShareOfCrop = 0.02;
 constexpr double kShareOfClusters = 1 - kShareOfFarRaster - kShareOfDimLight - kShareOfCrop;
 
