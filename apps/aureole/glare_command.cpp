@@ -142,6 +142,7 @@ void GlareCommand::check_camera() {
     refuse(field_varying.needles() ? "--needles-by-position" : "", "needs --observer eye");
     refuse(preset == "vivid" || preset == "thesis" ? "--preset " + preset : "",
            "needs --observer eye");
+    spread.set_star_error();
     const Passes passes = spread.passes();
     refuse(passes == Passes::kOne || passes == Passes::kStreaks ? film.first_given() : "",
            "needs --passes both or bloom");

@@ -37,10 +37,9 @@ void SpreadSettings::add_options(CLI::App& group) {
     cluster_options_ = {
         number(group.add_option("--cluster-error", cluster_error,
                                 "Of sprites, hybrid and auto: largest sum of |difference| from "
-                                "fft, over the sum of the light"),
+                                "fft, over the sum of the light (default: 0.01, camera 0.001)"),
                1e-6, 0.5)
-            ->type_name("E")
-            ->capture_default_str(),
+            ->type_name("E"),
         one_of(group.add_option("--cluster-side", cluster_side,
                                 "Of the same: side in pixels of the largest clusters of lights "
                                 "that are drawn as one; 1: each pixel by itself"),
@@ -102,6 +101,11 @@ void SpreadSettings::set_thesis_look() {
     source_tone_map = "unity";
     source_factor = eye::kThesisSourceFactor;
     added = true;
+}
+
+void SpreadSettings::set_star_error() {
+    constexpr double kStarError = 0.001;
+    if (cluster_options_.front()->count() == 0) cluster_error = kStarError;
 }
 
 glare::GlareOptions SpreadSettings::options(bool matte, double exposure_ev) const {

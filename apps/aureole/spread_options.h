@@ -32,6 +32,8 @@ struct SpreadSettings {
     glare::GlareOptions bloom_options(bool matte) const;
     // ACES and a threshold decide what light is, glare is added; what was given stays.
     void set_thesis_look();
+    // Arms of a star hold little of its light and are seen all the same.
+    void set_star_error();
     // The first option in force that a kernel that varies over the picture does not know, or
     // nothing.
     std::string first_selective() const;

@@ -145,6 +145,17 @@ TEST_F(Passes, WhatIsGivenWinsOverThePreset) {
     EXPECT_EQ(eye["parameters"]["corona_contrast"], 1);
 }
 
+TEST_F(Passes, StarsMayErrLess) {
+    const auto error_of = [&](const std::string& options) {
+        return report("glare in.exr -o a.exr --fov 6 --method sprites" +
+                      options)["parameters"]["cluster_error"]
+            .get<double>();
+    };
+    EXPECT_EQ(error_of(" --pupil 6"), 0.01);
+    EXPECT_EQ(error_of(" --observer camera"), 0.001);
+    EXPECT_EQ(error_of(" --observer camera --cluster-error 0.02"), 0.02);
+}
+
 // Of a preset's values none counts as given, so that none is refused where it has no effect.
 TEST_F(Passes, ThePresetFitsEveryUse) {
     // Without bloom there is nothing for the preset's resolution.
