@@ -101,7 +101,7 @@ std::optional<wave::VaryingPsf> CameraObserver::varying_psf(const View& /*displa
         camera_.lens, camera_.iris, camera_.entrance_pupil_mm(), psf, options, kHeldOutPositions);
     session_.note(
         fmt::format("stars over the field: {:.1f} % from those of each position", 100 * error.l1));
-    field_report_ = FieldVaryingOption::report(options.spacing_deg, options.rank, psf, error);
+    field_report_ = FieldVaryingOption::nodes(options.spacing_deg, options.rank, psf, error);
     return psf;
 }
 

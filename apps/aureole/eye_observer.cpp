@@ -89,7 +89,7 @@ void EyeObserver::measure_field(const wave::VaryingPsf& psf, const eye::FieldPsf
     const wave::FieldError error = eye::field_error(eye_, psf, options.psf, kHeldOutPositions);
     session_.note(fmt::format("streaks over the field: {:.1f} % from those of each position",
                               100 * error.l1));
-    field_report_ = FieldVaryingOption::report(options.spacing_deg, options.rank, psf, error);
+    field_report_ = FieldVaryingOption::nodes(options.spacing_deg, options.rank, psf, error);
 }
 
 void EyeObserver::report(nlohmann::ordered_json& json) const {

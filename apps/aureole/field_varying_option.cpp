@@ -39,9 +39,9 @@ void FieldVaryingOption::report(nlohmann::ordered_json& parameters) const {
     parameters["needles_by_position"] = needles_;
 }
 
-nlohmann::ordered_json FieldVaryingOption::report(double spacing_deg, int rank,
-                                                  const wave::VaryingPsf& psf,
-                                                  const wave::FieldError& error) {
+nlohmann::ordered_json FieldVaryingOption::nodes(double spacing_deg, int rank,
+                                                 const wave::VaryingPsf& psf,
+                                                 const wave::FieldError& error) {
     std::size_t kernels = 0;
     for (const auto& part : psf.parts) kernels += part.halves.size();
     return {{"spacing_deg", spacing_deg},

@@ -33,8 +33,8 @@ class FieldVaryingOption {
     // Adds them to the parameters in force.
     void report(nlohmann::ordered_json& parameters) const;
     // What the nodes are, what they hold, and how wrong they are.
-    static nlohmann::ordered_json report(double spacing_deg, int rank, const wave::VaryingPsf& psf,
-                                         const wave::FieldError& error);
+    static nlohmann::ordered_json nodes(double spacing_deg, int rank, const wave::VaryingPsf& psf,
+                                        const wave::FieldError& error);
 
   private:
     std::string text_ = "off";

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
+#include "aureole/base/smoothstep.h"
 #include "aureole/wave/spectral_psf.h"
-#include "eye/smoothstep.h"
 
 namespace aureole::eye {
 

@@ -7,9 +7,9 @@
 #include <cstddef>
 
 #include "aureole/base/error.h"
+#include "aureole/base/smoothstep.h"
 #include "eye/band_noise.h"
 #include "eye/piecewise_linear.h"
-#include "eye/smoothstep.h"
 #include "eye/time_range.h"
 
 namespace aureole::eye {

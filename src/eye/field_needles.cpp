@@ -82,28 +82,6 @@ void scale(Image& image, const std::array<double, 3>& factors) {
     }
 }
 
-// Takes the part from the middle of the base and makes unit energy of what is left.
-void take_from(wave::Psf& base, const Image& part) {
-    const int x0 = (base.kernel.width() - part.width()) / 2;
-    const int y0 = (base.kernel.height() - part.height()) / 2;
-    std::array<double, 3> up = {};
-    for (int c = 0; c < 3; ++c) {
-        double taken = 0;
-        for (int y = 0; y < part.height(); ++y) {
-            float* from = base.kernel.row(y0 + y, c) + x0;
-            for (int x = 0; x < part.width(); ++x) {
-                const float value = std::min(from[x], part.at(x, y, c));  // but for rounding, part
-                taken += static_cast<double>(value);
-                from[x] -= value;
-            }
-        }
-        const auto channel = static_cast<std::size_t>(c);
-        up[channel] = 1 / (1 - taken);
-        base.off_kernel_energy[channel] *= up[channel];
-    }
-    scale(base.kernel, up);
-}
-
 // What the parts leave of a light at a pixel, mean of the colours.
 double left_by(const wave::VaryingPsf& psf, const wave::NodePlaces::Place& place) {
     if (psf.parts.empty()) return 1;
@@ -175,7 +153,7 @@ void vary_needles(wave::VaryingPsf& psf, const Eye& eye, const FieldNeedlesOptio
                      static_cast<std::size_t>(row * regions.columns + column)] =
             static_cast<float>(left_by(psf, nodes.places[n]));
     });
-    take_from(psf.base, part_of({}, options.psf));
+    wave::take_out(psf.base, part_of({}, options.psf));
     psf.parts.push_back(std::move(part));
 }
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "aureole/base/smoothstep.h"
 #include "aureole/base/units.h"
 #include "aureole/wave/aperture.h"
 #include "eye/components.h"
-#include "eye/smoothstep.h"
 
 namespace aureole::eye {
 namespace {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "aureole/base/error.h"
+#include "aureole/base/smoothstep.h"
 #include "eye/band_noise.h"
 #include "eye/before_pupil.h"
 #include "eye/piecewise_linear.h"
 #include "eye/pupil_outline.h"
-#include "eye/smoothstep.h"
 #include "eye/time_range.h"
 
 namespace aureole::eye {

@@ -42,7 +42,7 @@ constexpr double kRetinaMm = 21;
 // diffraction.
 constexpr std::array<double, 2> kVitreousDepthsMm = {4, 8};
 // Angle of the ray through the middle of the pupil, inside over outside: n y / n' y' of the pupils
-// (Lagrange), 1 / (1.336 * .912).
+// (Lagrange), 1 / (1.336 * .912); those of Gullstrand's eye are 1.13 and 1.03 times the iris.
 constexpr double kInsideOverOutside = 0.82;
 constexpr double kGoldenFraction = 0.618034;
 

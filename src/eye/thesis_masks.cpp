@@ -6,10 +6,10 @@
 
 #include "aureole/base/parallel.h"
 #include "aureole/base/random.h"
+#include "aureole/base/smoothstep.h"
 #include "aureole/base/units.h"
 #include "aureole/wave/mask_shapes.h"
 #include "aureole/wave/radial_grating.h"
-#include "eye/smoothstep.h"
 
 namespace aureole::eye {
 namespace {

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "aureole/base/parallel.h"
+#include "aureole/base/smoothstep.h"
 #include "aureole/base/units.h"
 #include "aureole/color/spectrum.h"
 #include "aureole/eye/thesis_glare.h"
 #include "aureole/fourier/fft.h"
 #include "aureole/wave/diffraction.h"
 #include "aureole/wave/spectral_psf.h"
-#include "eye/smoothstep.h"
 #include "eye/thesis_masks.h"
 
 namespace aureole::eye {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "aureole/base/parallel.h"
+#include "aureole/base/smoothstep.h"
 #include "glare/raster_error.h"
 #include "glare/raster_kernel.h"
 
@@ -22,8 +23,7 @@ constexpr int kNearRadii[] = {256, 512, 128, 64};
 constexpr int kLeastRatio = 2;
 
 double far_share(double distance, int near_radius) {
-    const double t = std::clamp(2 * distance / near_radius - 1, 0.0, 1.0);
-    return t * t * (3 - 2 * t);
+    return smoothstep(0.5 * near_radius, near_radius, distance);
 }
 
 Image far_image(const ConstImageView& kernel, int near_radius) {

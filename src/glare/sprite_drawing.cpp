@@ -64,7 +64,7 @@ void add_four_taps(const float* kernel, std::ptrdiff_t stride, const std::array<
     });
 }
 
-// What of a sprite is left at pixels of a row: smooth_step((radius - distance) / fade).
+// What of a sprite is left at pixels of a row: smoothstep(0, fade, radius - distance).
 class Fade {
   public:
     Fade(const Sprite& sprite, float dy)

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "aureole/base/parallel.h"
+#include "aureole/base/smoothstep.h"
 
 namespace aureole::glare {
 namespace {
@@ -31,11 +32,6 @@ double ring_mean(const ConstImageView& kernel, int c, int radius) {
         }
     }
     return count > 0 ? sum / count : 0;
-}
-
-double smooth_step(double t) {
-    const double u = std::clamp(t, 0.0, 1.0);
-    return u * u * (3 - 2 * u);
 }
 
 // A parabola that continues the ring means inwards, with their slope at the radius and none in the
@@ -103,7 +99,7 @@ KernelProfile::KernelProfile(const ConstImageView& kernel) {
             for (auto i = static_cast<std::size_t>(kFadeFrom * end); i < radius; ++i) {
                 const double left =
                     (end - static_cast<double>(i) - 1) / ((1 - kFadeFrom) * std::max(end, 1.0));
-                lost += sums[i] * (1 - smooth_step(left));
+                lost += sums[i] * (1 - smoothstep(0, 1, left));
             }
             lost_[radius] = std::max(lost_[radius], lost);
         });
@@ -145,7 +141,7 @@ SplitKernel split_kernel(const ConstImageView& kernel, int core_radius) {
                 float& smooth = split.smooth.at(kernel.width / 2 + x - core_radius,
                                                 kernel.height / 2 + y - core_radius, c);
                 // The cap alone in the inner half, then over to the kernel with its needles.
-                const double share = smooth_step(2 * r / core_radius - 1);
+                const double share = smoothstep(0.5, 1, r / core_radius);
                 const double k = static_cast<double>(smooth);
                 const auto rounded = static_cast<float>(share * k + (1 - share) * cap.at(r));
                 split.core.at(x, y, c) = smooth - rounded;

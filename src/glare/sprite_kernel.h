@@ -32,7 +32,7 @@ class PaddedKernel {
     Buffer data_;
 };
 
-// Sprites fade out over the last part of their radius, smoothly (smooth_step): no edge shows where
+// Sprites fade out over the last part of their radius, smoothly (smoothstep): no edge shows where
 // they end.
 inline constexpr double kFadeFrom = 0.75;  // of the radius
 

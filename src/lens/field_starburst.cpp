@@ -72,33 +72,6 @@ class NearStars {
     Image window_;
 };
 
-// The star of the axis beyond the reach, as a kernel of unit energy.
-wave::Psf far_part(wave::Psf axis, const Image& window) {
-    const int x0 = (axis.kernel.width() - window.width()) / 2;
-    const int y0 = (axis.kernel.height() - window.height()) / 2;
-    for (int c = 0; c < 3; ++c) {
-        double left = axis.off_kernel_energy[static_cast<std::size_t>(c)];
-        for (int y = 0; y < axis.kernel.height(); ++y) {
-            for (int x = 0; x < axis.kernel.width(); ++x) {
-                const int wx = x - x0;
-                const int wy = y - y0;
-                float& value = axis.kernel.at(x, y, c);
-                if (wx >= 0 && wy >= 0 && wx < window.width() && wy < window.height()) {
-                    value *= 1 - window.at(wx, wy);
-                }
-                left += static_cast<double>(value);
-            }
-        }
-        for (int y = 0; y < axis.kernel.height(); ++y) {
-            for (int x = 0; x < axis.kernel.width(); ++x) {
-                axis.kernel.at(x, y, c) /= static_cast<float>(left);
-            }
-        }
-        axis.off_kernel_energy[static_cast<std::size_t>(c)] /= left;
-    }
-    return axis;
-}
-
 }  // namespace
 
 wave::VaryingPsf field_starburst(const Lens& lens, const Iris& iris, double pupil_diameter_mm,
@@ -108,9 +81,10 @@ wave::VaryingPsf field_starburst(const Lens& lens, const Iris& iris, double pupi
     const NearStars stars(lens, iris, pupil_diameter_mm, view, options);
     wave::VaryingPsf result;
     result.view = view;
-    result.base = far_part(
-        starburst_psf(iris, pupil_diameter_mm, wave::KernelGrid::full_reach(view), options.psf),
-        stars.window());
+    result.base =
+        starburst_psf(iris, pupil_diameter_mm, wave::KernelGrid::full_reach(view), options.psf);
+    // Beyond the reach, the star of the axis.
+    wave::take_out(result.base, wave::windowed(result.base.kernel, stars.window()));
 
     const wave::NodePlaces nodes = wave::node_places(view, options.spacing_deg);
     fourier::KernelNodes part{nodes.columns, nodes.rows, {}, {}};

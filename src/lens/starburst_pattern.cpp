@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "aureole/base/parallel.h"
+#include "aureole/base/smoothstep.h"
 #include "aureole/base/units.h"
 #include "aureole/wave/diffraction.h"
 
@@ -22,11 +23,6 @@ constexpr double kHandOver = 1.4142135623730951;
 constexpr double kCoreWidth = 16;  // extent over opening
 constexpr int kCoreSamples = 2048;
 constexpr Crossover kCore = {kCoreWidth * 16, kCoreWidth * 32};
-
-double smoothstep(double t) {
-    t = std::clamp(t, 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
 
 // The pattern of an aperture out to `end` samples, as energy per sample but for a common factor
 // that is the same for all rasters of one aperture: |sum of t dx^2|^2 / extent^2.
@@ -125,7 +121,7 @@ PatternRaster raster(AxisSquare square, double factor, double extent_mm, double 
 double Crossover::before(double rho) const {
     if (rho <= full) return 1;
     if (rho >= end) return 0;
-    return 1 - smoothstep(std::log(rho / full) / std::log(end / full));
+    return 1 - smoothstep(0, std::log(end / full), std::log(rho / full));
 }
 
 StarburstPattern starburst_pattern(const Iris& iris, double pupil_diameter_mm,

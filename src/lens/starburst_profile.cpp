@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "aureole/base/parallel.h"
+#include "aureole/base/smoothstep.h"
 #include "aureole/base/units.h"
 
 namespace aureole::lens {
@@ -186,8 +187,7 @@ double SpikeProfile::over(double phi, double side_a, double side_b, double stret
     const double s = std::min(stretch, narrow_enough);
     if (!(s > 1)) return profile_.over(phi, side_a, side_b);
     const double delta = std::remainder(phi - first_rad_, spacing_rad_);
-    const double t = std::clamp((s * std::abs(delta) / (0.5 * spacing_rad_) - 0.3) / 0.6, 0.0, 1.0);
-    const double far_share = t * t * (3 - 2 * t);
+    const double far_share = smoothstep(0.3, 0.9, s * std::abs(delta) / (0.5 * spacing_rad_));
     double p = 0;
     if (far_share < 1) {
         p += (1 - far_share) * s * profile_.over(phi + (s - 1) * delta, s * side_a, s * side_b);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "aureole/base/smoothstep.h"
 #include "aureole/base/units.h"
 
 namespace aureole::wave {
@@ -52,8 +53,7 @@ Image radial_window(const KernelGrid& grid, double end_deg) {
     for (int y = 0; y < grid.height; ++y) {
         for (int x = 0; x < grid.width; ++x) {
             const double angle_deg = view.angle_from_axis_deg(x + 0.5, y + 0.5);
-            const double t = std::clamp((1 - angle_deg / end_deg) / kOverlap, 0.0, 1.0);
-            window.at(x, y) = static_cast<float>(t * t * (3 - 2 * t));
+            window.at(x, y) = static_cast<float>(smoothstep(0, kOverlap, 1 - angle_deg / end_deg));
         }
     }
     return window;
@@ -79,6 +79,26 @@ Image windowed(const Image& kernel, const Image& window, double scale) {
         }
     }
     return result;
+}
+
+void take_out(Psf& psf, const Image& part) {
+    const int x0 = (psf.kernel.width() - part.width()) / 2;
+    const int y0 = (psf.kernel.height() - part.height()) / 2;
+    for (int c = 0; c < 3; ++c) {
+        double taken = 0;
+        for (int y = 0; y < part.height(); ++y) {
+            float* from = psf.kernel.row(y0 + y, c) + x0;
+            for (int x = 0; x < part.width(); ++x) {
+                const float value = std::min(from[x], part.at(x, y, c));  // but for rounding, part
+                taken += static_cast<double>(value);
+                from[x] -= value;
+            }
+        }
+        const double up = 1 / (1 - taken);
+        std::for_each_n(psf.kernel.plane(c), psf.kernel.pixels(),
+                        [factor = static_cast<float>(up)](float& value) { value *= factor; });
+        psf.off_kernel_energy[static_cast<std::size_t>(c)] *= up;
+    }
 }
 
 }  // namespace aureole::wave

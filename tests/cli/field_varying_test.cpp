@@ -11,16 +11,21 @@ namespace {
 
 using FieldVarying = CliTest;
 
+void expect_conserved(const nlohmann::json& json) {
+    const auto& energy = json["energy"];
+    const double ghosts = energy.contains("ghosts") ? energy["ghosts"].get<double>() : 0.0;
+    EXPECT_NEAR((energy["out"].get<double>() - ghosts + energy["off_picture"].get<double>()) /
+                    energy["in"].get<double>(),
+                1, 1e-4);
+}
+
 TEST_F(FieldVarying, ConservesEnergyAndReportsItsError) {
     write("in.exr", noise(48, 27, 3));
     const Outcome outcome =
         run("glare in.exr -o out.exr --fov 50 --pupil 5 --field-varying 30 --json");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
-    const auto& energy = json["energy"];
-    EXPECT_NEAR((energy["out"].get<double>() + energy["off_picture"].get<double>()) /
-                    energy["in"].get<double>(),
-                1, 1e-4);
+    expect_conserved(json);
     const auto& field = json["field_varying"];
     EXPECT_GT(field["error"].get<double>(), 0);
     EXPECT_LT(field["error"].get<double>(), 1);
@@ -53,11 +58,7 @@ TEST_F(FieldVarying, ACameraKeepsItsEnergy) {
             "--f-number 1.4 --fov 20 --field-varying 10 --json");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
-    const auto& energy = json["energy"];
-    const double ghosts = energy.contains("ghosts") ? energy["ghosts"].get<double>() : 0.0;
-    EXPECT_NEAR((energy["out"].get<double>() - ghosts + energy["off_picture"].get<double>()) /
-                    energy["in"].get<double>(),
-                1, 1e-4);
+    expect_conserved(json);
     EXPECT_EQ(json["method"], "nodes");
     EXPECT_GT(json["field_varying"]["kernels"].get<int>(), 1);
     EXPECT_GT(json["field_varying"]["error"].get<double>(), 0);
@@ -71,10 +72,7 @@ TEST_F(FieldVarying, NeedlesDifferAndKeepTheEnergy) {
             more);
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
         const auto json = nlohmann::json::parse(outcome.out);
-        const auto& energy = json["energy"];
-        EXPECT_NEAR((energy["out"].get<double>() + energy["off_picture"].get<double>()) /
-                        energy["in"].get<double>(),
-                    1, 1e-4);
+        expect_conserved(json);
         EXPECT_EQ(json["method"], "nodes");
         EXPECT_EQ(json["parameters"]["needles_by_position"], true);
     }

@@ -26,24 +26,24 @@ class MotionErrors : public CliTest {
 };
 
 TEST_F(MotionErrors, SayWhatIsMissingOrWrong) {
-    const std::string one = "glare in.0000.exr -o out.exr --fov 40 ";
-    fails(one + "--blink auto", 2, {"--blink", "--time"});
-    fails(one + "--adaptation a.csv", 2, {"a.csv", "--time"});
-    fails(one + "--adaptation a.csv --time 1", 1, {"a.csv"});
+    fails(kGlare + "--blink auto", 2, {"--blink", "--time"});
+    fails(kGlare + "--adaptation a.csv", 2, {"a.csv", "--time"});
+    fails(kGlare + "--adaptation a.csv --time 1", 1, {"a.csv"});
     fails("glare in.%04d.exr --frames 0-1 -o out.%04d.exr --fps 24", 2,
           {"--fps", "--adaptation", "meter"});
-    fails(one + "--time 1 --squint 2", 2, {"--squint", "0.8"});
-    fails(one + "--time 1 --fps 0", 2, {"--fps", "above 0"});
-    fails(one + "--time 1 --observer camera", 2, {"--time", "--observer"});
-    fails(one + "--time 1 --blink 3,1", 2, {"--blink", "3,1", "later"});
+    fails(kGlare + "--time 1 --squint 2", 2, {"--squint", "0.8"});
+    fails(kGlare + "--time 1 --fps 0", 2, {"--fps", "above 0"});
+    fails(kGlare + "--time 1 --observer camera", 2, {"--time", "--observer"});
+    fails(kGlare + "--time 1 --blink 3,1", 2, {"--blink", "3,1", "later"});
     write_bytes("bad.csv", "time_s,adaptation_cd_m2\n0,1\n1,bright\n");
-    fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "line 3", "bright", "number"});
+    fails(kGlare + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "line 3", "bright", "number"});
     write_bytes("bad.csv", "time_s,luminance\n0,1\n");
-    fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "adaptation_cd_m2", "luminance"});
+    fails(kGlare + "--time 1 --adaptation bad.csv", 1,
+          {"bad.csv", "adaptation_cd_m2", "luminance"});
     write_bytes("bad.csv", "time_s,adaptation_cd_m2\n0,1\n0,1\n");
-    fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "later"});
+    fails(kGlare + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "later"});
     write_bytes("bad.csv", "");
-    fails(one + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "no numbers"});
+    fails(kGlare + "--time 1 --adaptation bad.csv", 1, {"bad.csv", "no numbers"});
     const std::string psf = "psf -o out.exr --size 9 ";
     fails(psf + "--blink auto", 2, {"--blink", "--time"});
     fails(psf + "--adaptation a.csv", 2, {"a.csv", "--time"});

@@ -37,4 +37,8 @@ Image radial_ring(const KernelGrid& grid, double from_deg, double end_deg);
 // scale * window * kernel: the middle of a kernel on the window's grid.
 Image windowed(const Image& kernel, const Image& window, double scale = 1);
 
+// Takes a part, which is no more than there is, from the middle of a kernel of unit energy and
+// gives unit energy to what is left: the base of a varying PSF whose parts hold such a part.
+void take_out(Psf& psf, const Image& part);
+
 }  // namespace aureole::wave

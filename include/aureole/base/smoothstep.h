@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace aureole::eye {
+namespace aureole {
 
 // 0 up to `from`, 1 from `to` on, between them a cubic that is level at both ends. from < to.
 inline double smoothstep(double from, double to, double x) {
@@ -11,4 +11,4 @@ inline double smoothstep(double from, double to, double x) {
     return t * t * (3 - 2 * t);
 }
 
-}  // namespace aureole::eye
+}  // namespace aureole
