@@ -191,9 +191,10 @@ std::string BakeCommand::measure(const eye::Flipbook& book, const eye::Eye& eye,
         measure_with(eye::FlipbookLids::kOpen, "open_lids", "");
         measure_with(eye::FlipbookLids::kCovering, "covering_lids", " behind closing lids");
     });
-    if (at_frames.empty())
-        return "no pose to measure: its patterns end within 0.3 deg, or no "
-               "frames of all its terms belong together\n";
+    if (at_frames.empty()) {
+        return "no pose to measure: its patterns end within 0.3 deg, or no frames of all its terms "
+               "belong together\n";
+    }
     return fmt::format("{} (worst ring from {:.2g} to {:.2g} deg)\n{}", at_frames,
                        json["from_deg"].get<double>(), json["to_deg"].get<double>(),
                        between_frames);

@@ -39,8 +39,8 @@ std::span<const Case> gallery_cases() {
          "The lamp goes behind the opaque plate.", 4, occlusion_case},
         {"sunset", "A sunset",
          "The sun goes down into the sea: from 5 deg to -0.2 deg its luminance falls by a factor "
-         "of "
-         "and its colour goes from a light to a deep orange, without any step. The picture "
+         "of some seventy and its colour goes from a light to a deep orange, without any step. The "
+         "picture "
          "is exposed for the sky.",
          "The same in 48 steps, smaller ones towards the end, until the sun has gone.", 3,
          sunset_case},
