@@ -16,6 +16,7 @@
 #include "aureole/base/parallel.h"
 #include "aureole/base/random.h"
 #include "aureole/eye/field_error.h"
+#include "aureole/eye/field_needles.h"
 #include "aureole/eye/field_psf.h"
 #include "aureole/glare/glare.h"
 #include "aureole/glare/varying_glare.h"
@@ -148,6 +149,17 @@ void report_storage(const eye::Eye& eye, const View& view, const eye::FieldPsfOp
     }
 }
 
+void report_needles(const eye::Eye& eye, const View& view) {
+    wave::VaryingPsf psf{eye::eye_psf(eye, wave::KernelGrid::full_reach(view)), {}, view};
+    glare::Glare one(view, 3, psf.base);
+    const double prepared = timed([&] { eye::vary_needles(psf, eye); });
+    glare::VaryingGlare glare(3, psf);
+    const auto [single, all] = best_of(one, glare);
+    fmt::print("needles    cost {:5.2f} convolutions, {} regions in {:.1f} s, {:.1f} MB\n",
+               all / single, psf.parts.front().halves.size(), prepared,
+               static_cast<double>(fourier::bytes(psf.parts)) * 1e-6);
+}
+
 void run(double spacing_deg, int positions, bool with_storage) {
     const View view = View::from_fov(kWidth, kHeight, 60, Projection::kPerspective);
     const eye::Eye eye;
@@ -179,6 +191,7 @@ void run(double spacing_deg, int positions, bool with_storage) {
         for (auto& part : low.parts) part = principal_components(part, rank);
         measure(fmt::format("rank={}", rank).c_str(), low);
     }
+    report_needles(eye, view);
     if (!with_storage) return;
     for (const bool nearest : {true, false}) {
         report_storage(eye, view, options, std::min(positions, 12), error,

@@ -31,7 +31,7 @@ Image needles_at(const Eye& eye, const FieldPosition& field, const wave::KernelG
 // Gives psf needles that differ. Its base must be the eye_psf() of the eye, with streaks or
 // without, on KernelGrid::full_reach(psf.view); parts that psf has, like the streaks of
 // eye_field_psf(), stay, and what they hold is taken from the needles as from all the rest. Every
-// source pixel keeps unit energy. Takes about 0.2 s a region.
+// source pixel keeps unit energy. Takes 0.1 s a region on two cores.
 // Throws as needles_at() does, for options outside their ranges, for light by colour and for a
 // view wider or higher than 160 deg; Cancelled.
 void vary_needles(wave::VaryingPsf& psf, const Eye& eye, const FieldNeedlesOptions& options = {},

@@ -31,7 +31,7 @@ struct FieldPsfOptions {
 };
 
 // As eye_psf(), and on the axis the same (but for rays beyond reach_deg), for a picture seen as
-// `view`, at most 160 deg wide and high. Takes 11 s for 1080p at 60 deg on two cores.
+// `view`, at most 160 deg wide and high. Takes 12 s for 1080p at 60 deg on two cores.
 wave::VaryingPsf eye_field_psf(const Eye& eye, const View& view,
                                const FieldPsfOptions& options = {}, Progress* progress = nullptr);
 
